@@ -1,0 +1,1 @@
+"""Air models as frozen settings, and prescribed motion through them."""

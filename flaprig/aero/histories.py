@@ -1,0 +1,64 @@
+"""Time histories of a run: every column is named with its unit, and every row is one instant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Histories:
+    """Motion and loads against time; all arrays of shape (n,).
+
+    Attributes:
+        time: [s].
+        sweep: [rad].
+        pitch: [rad].
+        sweep_rate: [rad/s].
+        pitch_rate: [rad/s].
+        lift: upward force [N].
+        drag: force against the sweep, positive when it opposes the motion [N].
+        sweep_torque: of the fluid on the wing about the sweep axis [N m].
+        pitch_torque: of the fluid on the wing about the pitch axis, along +pitch [N m].
+        power: given to the fluid, -(sweep_torque sweep_rate + pitch_torque pitch_rate) [W].
+        lift_extra: share of the suction (UVLM) or of the rotation (quasi-steady) in lift [N].
+        drag_extra: the same in drag [N].
+        lift_added_mass: share of the added mass in lift [N].
+        drag_added_mass: the same in drag [N].
+    """
+
+    time: Array
+    sweep: Array
+    pitch: Array
+    sweep_rate: Array
+    pitch_rate: Array
+    lift: Array
+    drag: Array
+    sweep_torque: Array
+    pitch_torque: Array
+    power: Array
+    lift_extra: Array
+    drag_extra: Array
+    lift_added_mass: Array
+    drag_added_mass: Array
+
+    def columns(self) -> dict[str, Array]:
+        """Arrays by name with unit, for files: time_s, sweep_rad, lift_N, ..."""
+        return {f"{f.name}_{_unit(f.name)}": getattr(self, f.name) for f in fields(self)}
+
+
+def _unit(name: str) -> str:
+    """SI unit of a history, as it stands in a file's header."""
+    if name == "time":
+        return "s"
+    if name in ("sweep", "pitch"):
+        return "rad"
+    if name.endswith("_rate"):
+        return "rad_per_s"
+    if name.endswith("_torque"):
+        return "Nm"
+    return "W" if name == "power" else "N"

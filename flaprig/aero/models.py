@@ -1,0 +1,182 @@
+"""The two air models as frozen settings: what `simulate` runs and what the plugins read."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, Protocol
+
+from flaprig import _checks as check
+from flaprig.aero.coefficients import DICKINSON_1999, Coefficients
+from flaprig.fluid import Fluid
+from flaprig.wing import Wing
+
+# half sweep amplitude where only a frequency is known [rad]: the paper's 60 degrees
+SWEEP_AMPLITUDE = math.pi / 3
+
+# suction efficiency of eq. 6 that gives the paper's sinusoid its measured C_L of 1.94 with the
+# other defaults below: a calibration on one case, not a prediction (docs/model.md)
+SUCTION_EFFICIENCY = 0.72
+
+
+class AirModel(Protocol):
+    """An air model, as settings."""
+
+    steps_per_cycle: int
+    plugin: ClassVar[str]
+    parts: ClassVar[tuple[str, str]]
+
+    def attributes(
+        self, wing: Wing, fluid: Fluid, frequency: float, sweep_amplitude: float = SWEEP_AMPLITUDE
+    ) -> dict[str, str]:
+        """The attributes of the MuJoCo plugin with these settings."""
+        ...
+
+
+def geometry_attributes(wing: Wing, fluid: Fluid) -> dict[str, str]:
+    """Attributes that both plugins share: planform, thickness, fluid density."""
+    return {
+        "stations": " ".join(repr(float(x)) for x in wing.stations.ravel()),
+        "thickness": repr(wing.thickness),
+        "density": repr(fluid.density),
+    }
+
+
+@dataclass(frozen=True)
+class UVLM:
+    """The modified unsteady vortex lattice method (paper, section 2.1).
+
+    Attributes:
+        chordwise: panels along the chord, 1 to 64.
+        spanwise: panels along the span, 1 to 128; at most 1024 panels together.
+        steps_per_cycle: wake rows shed in one cycle.
+        suction_efficiency: eta_s of eq. 6; the default is calibrated on the paper's sinusoid.
+        suction_factor: 1 for eq. 6 as printed, 4/pi to make eta_s = 1 the exact flat-plate
+            suction (the lattice returns pi/4 of it).
+        wake_cycles: length of the wake kept, in cycles.
+        core: radius of the vortex core, in mean chords.
+        shedding_fraction: where a new wake row is placed, of the way from the trailing edge to
+            the last free row (1/3: paper and Ramesh 2014; 1/4: the more accurate one).
+        tip_inset: how far the lattice's ends lie inside the tips, in strips (Hough 1973).
+        threads: threads of the wake's roll-up; results do not depend on it.
+
+    Raises:
+        ValueError: a setting out of its range.
+    """
+
+    chordwise: int = 6
+    spanwise: int = 12
+    steps_per_cycle: int = 100
+    suction_efficiency: float = SUCTION_EFFICIENCY
+    suction_factor: float = 1.0
+    wake_cycles: float = 1.0
+    core: float = 0.15
+    shedding_fraction: float = 1.0 / 3.0
+    tip_inset: float = 0.25
+    threads: int = 1
+    plugin: ClassVar[str] = "flaprig.uvlm"
+    parts: ClassVar[tuple[str, str]] = ("potential", "suction")
+
+    def __post_init__(self) -> None:
+        owner = "UVLM"
+        check.whole(owner, "chordwise", self.chordwise, 1, 64)
+        check.whole(owner, "spanwise", self.spanwise, 1, 128)
+        if self.chordwise * self.spanwise > 1024:
+            raise check.fail(owner, "chordwise * spanwise", "at most 1024", self.spanwise)
+        check.whole(owner, "steps_per_cycle", self.steps_per_cycle, 4, 100_000)
+        check.in_range(owner, "suction_efficiency", self.suction_efficiency, 0, 10)
+        check.in_range(owner, "suction_factor", self.suction_factor, 0, 2)
+        check.in_range(owner, "wake_cycles", self.wake_cycles, 0.01, 100)
+        check.positive(owner, "core", self.core, "mean chords", most=2)
+        check.in_range(owner, "shedding_fraction", self.shedding_fraction, 0.01, 0.99)
+        check.in_range(owner, "tip_inset", self.tip_inset, 0, 0.5, "strips")
+        check.whole(owner, "threads", self.threads, 1, 64)
+
+    def attributes(
+        self, wing: Wing, fluid: Fluid, frequency: float, sweep_amplitude: float = SWEEP_AMPLITUDE
+    ) -> dict[str, str]:
+        """The attributes of the plugin `flaprig.uvlm` with these settings.
+
+        Args:
+            wing: the wing.
+            fluid: the fluid.
+            frequency: strokes per second in [Hz]; sets the wake step.
+            sweep_amplitude: not needed here.
+        """
+        check.positive("UVLM", "frequency", frequency, "Hz")
+        settings = {
+            "chordwise": self.chordwise,
+            "spanwise": self.spanwise,
+            "wake_step": 1.0 / (frequency * self.steps_per_cycle),
+            "wake_rows": max(1, round(self.wake_cycles * self.steps_per_cycle)),
+            "core": float(self.core),
+            "shedding_fraction": float(self.shedding_fraction),
+            "tip_inset": float(self.tip_inset),
+            "suction_efficiency": float(self.suction_efficiency),
+            "suction_factor": float(self.suction_factor),
+            "threads": self.threads,
+        }
+        text = {name: repr(value) for name, value in settings.items()}
+        return geometry_attributes(wing, fluid) | text
+
+
+@dataclass(frozen=True)
+class QuasiSteady:
+    """Quasi-steady blade elements (Dickinson 1999; Sane & Dickinson 2002).
+
+    Attributes:
+        coefficients: translational lift and drag.
+        strips: blade elements along the span, 1 to 1000.
+        steps_per_cycle: instants per cycle at which `simulate` reports loads.
+        rotation: whether the rotational force is in.
+        added_mass: whether the added mass is in.
+
+    Raises:
+        ValueError: a setting out of its range.
+    """
+
+    coefficients: Coefficients = DICKINSON_1999
+    strips: int = 24
+    steps_per_cycle: int = 200
+    rotation: bool = True
+    added_mass: bool = True
+    plugin: ClassVar[str] = "flaprig.quasi_steady"
+    parts: ClassVar[tuple[str, str]] = ("translation", "rotation")
+
+    def __post_init__(self) -> None:
+        owner = "QuasiSteady"
+        if not isinstance(self.coefficients, Coefficients):
+            allowed = "DICKINSON_1999, LEE_2016 or Coefficients.from_table(...)"
+            raise check.fail(owner, "coefficients", allowed, self.coefficients)
+        check.whole(owner, "strips", self.strips, 1, 1000)
+        check.whole(owner, "steps_per_cycle", self.steps_per_cycle, 4, 100_000)
+        for name in ("rotation", "added_mass"):
+            if not isinstance(getattr(self, name), bool):
+                raise check.fail(owner, name, "True or False", getattr(self, name))
+
+    def attributes(
+        self, wing: Wing, fluid: Fluid, frequency: float, sweep_amplitude: float = SWEEP_AMPLITUDE
+    ) -> dict[str, str]:
+        """The attributes of the plugin `flaprig.quasi_steady` with these settings.
+
+        Args:
+            wing: the wing.
+            fluid: the fluid.
+            frequency: strokes per second in [Hz].
+            sweep_amplitude: half of the peak-to-peak sweep in [rad]; with the frequency it sets
+                the Reynolds number of Lee et al. 2016, at the mean speed of R2.
+        """
+        check.positive("QuasiSteady", "frequency", frequency, "Hz")
+        settings = geometry_attributes(wing, fluid) | {
+            "strips": str(self.strips),
+            "coefficients": self.coefficients.name,
+            "rotation": str(self.rotation).lower(),
+            "added_mass": str(self.added_mass).lower(),
+        }
+        if self.coefficients.table:
+            rows = (repr(x) for row in self.coefficients.table for x in row)
+            settings["coefficient_table"] = " ".join(rows)
+        if self.coefficients.name == "lee2016":
+            speed = 4.0 * frequency * sweep_amplitude * wing.radius_of_second_moment
+            settings["reynolds"] = repr(speed * wing.mean_chord / fluid.kinematic_viscosity)
+        return settings

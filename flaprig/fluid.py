@@ -1,0 +1,43 @@
+"""The fluid around the wing: density and viscosity, constant and incompressible."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flaprig import _checks as check
+
+
+@dataclass(frozen=True)
+class Fluid:
+    """An incompressible fluid.
+
+    Attributes:
+        density: mass density in [kg/m3], positive.
+        kinematic_viscosity: viscosity over density in [m2/s], positive.
+
+    Raises:
+        ValueError: a value that is not a positive finite number.
+    """
+
+    density: float
+    kinematic_viscosity: float
+
+    def __post_init__(self) -> None:
+        density = check.positive("Fluid", "density", self.density, "kg/m3")
+        viscosity = check.positive("Fluid", "kinematic_viscosity", self.kinematic_viscosity, "m2/s")
+        object.__setattr__(self, "density", density)
+        object.__setattr__(self, "kinematic_viscosity", viscosity)
+
+    @property
+    def dynamic_viscosity(self) -> float:
+        """Density times kinematic viscosity in [Pa s]."""
+        return self.density * self.kinematic_viscosity
+
+
+# water of the tank: 1000 kg/m3 and 1.0e-6 m2/s (20 degrees Celsius, rounded), the values that
+# give the printed Reynolds number 1.4e4 in equation 7 of the paper
+WATER = Fluid(density=1000.0, kinematic_viscosity=1.0e-6)
+
+# air at sea level, 15 degrees Celsius: International Standard Atmosphere (ISO 2533:1975),
+# 1.225 kg/m3 and 1.4607e-5 m2/s, rounded to three figures
+AIR = Fluid(density=1.225, kinematic_viscosity=1.46e-5)

@@ -1,0 +1,39 @@
+#include "drive.hpp"
+
+#include <algorithm>
+
+namespace flaprig {
+namespace {
+
+Vec3 read3(const double* p) { return {p[0], p[1], p[2]}; }
+
+void write(const Wrench& w, double* out) {
+  const double values[6] = {w.force.x, w.force.y, w.force.z, w.torque.x, w.torque.y, w.torque.z};
+  std::copy_n(values, 6, out);
+}
+
+}  // namespace
+
+Motion motion_at(const MotionArrays& a, int i) {
+  Motion m;
+  m.position_w = read3(a.position + 3 * i);
+  std::copy_n(a.rotation + 9 * i, 9, m.rotation.m.begin());
+  m.twist = {read3(a.twist + 6 * i), read3(a.twist + 6 * i + 3)};
+  m.twist_rate = {read3(a.twist_rate + 6 * i), read3(a.twist_rate + 6 * i + 3)};
+  return m;
+}
+
+void drive(Air& air, double* state, const MotionArrays& motion, double* base, double* extra,
+           double* added) {
+  for (int i = 0; i < motion.n; ++i) {
+    const Motion now = motion_at(motion, i);
+    const Loads loads = air.loads(state, now);
+    write(loads.base, base + 6 * i);
+    write(loads.extra, extra + 6 * i);
+    const Motion relative = relative_to_wind(now, air.wind_w());
+    write(added_mass_wrench(air.added_mass(), relative.twist_rate), added + 6 * i);
+    air.advance(state, now, motion.dt);
+  }
+}
+
+}  // namespace flaprig

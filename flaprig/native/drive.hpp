@@ -1,0 +1,25 @@
+// Prescribed motion: the air without rigid bodies, driven by arrays of poses and twists.
+#pragma once
+
+#include "air.hpp"
+
+namespace flaprig {
+
+// n instants, dt apart; row-major arrays
+struct MotionArrays {
+  int n;
+  double dt;
+  const double* position;    // n x 3, world
+  const double* rotation;    // n x 9, wing to world
+  const double* twist;       // n x 6, linear then angular, wing axes
+  const double* twist_rate;  // n x 6
+};
+
+Motion motion_at(const MotionArrays& motion, int i);
+
+// for each instant: the loads, then the step that begins there. Output n x 6 each (force, torque
+// in wing axes); added: the added mass's share.
+void drive(Air& air, double* state, const MotionArrays& motion, double* base, double* extra,
+           double* added);
+
+}  // namespace flaprig

@@ -1,0 +1,89 @@
+#include "instance.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace flaprig {
+
+Vec3 vec3(const mjtNum* p) { return {p[0], p[1], p[2]}; }
+
+Attributes attributes_of(const mjModel* m, int instance, Model model) {
+  Attributes attributes;
+  for (const char* name : attribute_names(model)) {
+    const char* value = mj_getPluginConfig(m, instance, name);
+    if (value && *value) attributes[name] = value;
+  }
+  return attributes;
+}
+
+const char* refused_option(const mjModel* m) {
+  if (m->opt.integrator == mjINT_RK4) {
+    return "integrator RK4 evaluates the air at poses that the wake never sees; use "
+           "implicitfast, implicit or Euler";
+  }
+  if (m->opt.solver == mjSOL_PGS) {
+    return "solver PGS does not know the added mass in M; use Newton or CG";
+  }
+  if ((m->opt.disableflags & mjDSBL_SPRING) && (m->opt.disableflags & mjDSBL_DAMPER)) {
+    return "disabling both spring and damper removes every passive force, the air's too; "
+           "leave one of them enabled";
+  }
+  return nullptr;
+}
+
+Instance::Instance(const mjModel* m, int instance, Model model) : id_(instance), model_(model) {
+  if (const char* refusal = refused_option(m)) throw std::invalid_argument(refusal);
+  const Specification s = read_specification(model, attributes_of(m, instance, model));
+  plate_ = s.plate;
+  plate_weight_ = s.density * s.plate.thickness * s.planform.area();
+  centroid_ = {s.planform.centroid_x(), s.planform.centroid_y(), 0};
+  place(m);
+  check_dofs(m);
+  air_ = make_air(s);
+  jacobian_.resize(6 * m->nv), scratch_.resize(6 * m->nv);
+}
+
+void Instance::place(const mjModel* m) {
+  for (int b = 0; b < m->nbody; ++b) {
+    if (m->body_plugin[b] != id_) continue;
+    if (body_ >= 0) {
+      throw std::invalid_argument("the instance is attached to two bodies; give each wing its own");
+    }
+    body_ = b;
+  }
+  if (body_ < 0) throw std::invalid_argument("the instance is attached to no body");
+  if (plate_.site.empty()) {
+    throw std::invalid_argument(
+        "site must be given: the name of a site on the wing's body whose x axis points along the "
+        "chord from leading to trailing edge, y along the span, z along the normal");
+  }
+  // mj_name2id is not to be used here: it needs the hash map, which is made later
+  for (int s = 0; s < m->nsite; ++s) {
+    if (plate_.site == m->names + m->name_siteadr[s]) site_ = s;
+  }
+  if (site_ < 0 || m->site_bodyid[site_] != body_) {
+    throw std::invalid_argument("site must be the name of a site on the wing's own body, got \"" +
+                                plate_.site + "\"");
+  }
+}
+
+// MuJoCo leaves out the off-diagonal inertia of bodies that it calls simple
+void Instance::check_dofs(const mjModel* m) const {
+  auto& dofs = const_cast<std::vector<int>&>(dofs_);
+  int body = body_;
+  while (body > 0 && m->body_dofnum[body] == 0) body = m->body_parentid[body];
+  if (body == 0) return;  // welded to the world: loads are reported, nothing moves
+  for (int i = m->body_dofadr[body] + m->body_dofnum[body] - 1; i >= 0; i = m->dof_parentid[i]) {
+    dofs.insert(dofs.begin(), i);
+  }
+  for (int i = 0; i < static_cast<int>(dofs.size()); ++i) {
+    if (m->M_rownnz[dofs[i]] <= i) {
+      throw std::invalid_argument(
+          "the body has a free or ball joint and inertia about its own origin, for which MuJoCo "
+          "keeps no off-diagonal inertia; shift the body's <inertial> by 1e-6 m to make room for "
+          "the added mass");
+    }
+  }
+}
+
+}  // namespace flaprig

@@ -1,0 +1,59 @@
+// One wing in a MuJoCo model: where it sits, its air, and what the last `compute` found.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <vector>
+
+#include "../air.hpp"
+#include "../settings.hpp"
+#include "memory.hpp"
+
+namespace flaprig {
+
+Vec3 vec3(const mjtNum* p);
+Attributes attributes_of(const mjModel* m, int instance, Model model);
+// the text of what is wrong with the model's options, or nullptr
+const char* refused_option(const mjModel* m);
+
+class Instance {
+ public:
+  // throws std::invalid_argument with one sentence
+  Instance(const mjModel* m, int instance, Model model);
+
+  // adds the air's mass to d->M and the rest of its load to d->qfrc_passive
+  void compute(const mjModel* m, mjData* d);
+  // the step that `compute` began is over: remember its loads, move the wake
+  void advance(const mjModel* m, mjData* d, Memory memory);
+  // fills the instance's sensors from memory
+  void sense(const mjModel* m, mjData* d, Memory memory) const;
+  void draw(const mjModel* m, const mjData* d, mjvScene* scene, Memory memory) const;
+
+ private:
+  void place(const mjModel* m);
+  void check_dofs(const mjModel* m) const;
+  void read_motion(const mjModel* m, mjData* d);
+  void add_mass(const mjModel* m, mjData* d) const;
+  Twist through_jacobian(const mjtNum* velocity) const;
+  Wrench buoyancy(const mjModel* m) const;
+  Wrench on_mount(const mjModel* m, const Wrench& air, const Twist& rate) const;
+  Wrench at_site(const mjModel* m, int site, const Wrench& w) const;
+  void log(const mjModel* m, const Wrench& air, const Twist& mean, Memory memory) const;
+
+  int id_, body_ = -1, site_ = -1;
+  Model model_;
+  PlateSettings plate_;
+  double plate_weight_;  // of the fluid it displaces, per unit gravity [kg]
+  Vec3 centroid_;
+  std::unique_ptr<Air> air_;
+  std::vector<int> dofs_;  // that move the body, root first
+
+  // of the last compute: rebuilt each step, so no part of the state
+  Motion motion_;                  // its twist_rate holds what remains at zero qacc
+  Wrench velocity_load_;           // all but the added mass on the acceleration
+  std::vector<mjtNum> jacobian_;   // 6 x nv, wing axes: linear, then angular
+  std::vector<mjtNum> scratch_;    // 6 x nv
+};
+
+}  // namespace flaprig

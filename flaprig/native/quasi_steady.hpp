@@ -1,0 +1,36 @@
+// Quasi-steady blade elements: translation, rotation, added mass, moving centre of pressure
+// (Dickinson, Lehmann & Sane 1999; Sane & Dickinson 2002).
+#pragma once
+
+#include <vector>
+
+#include "air.hpp"
+#include "coefficients.hpp"
+#include "settings.hpp"
+
+namespace flaprig {
+
+class QuasiSteady : public Air {
+ public:
+  QuasiSteady(const Planform& planform, const QuasiSteadySettings& settings, double density,
+              Vec3 wind_w);
+
+  int state_size() const override { return 0; }
+  Loads loads(const double* state, const Motion& motion) const override;
+  void advance(double*, const Motion&, double) override {}
+  LiftDrag coefficients(double alpha) const;
+
+ private:
+  struct Strip {
+    double radius, chord, leading_edge, width;
+  };
+  void add_translation(const Strip& strip, double vx, double vz, Wrench& load) const;
+  void add_rotation(const Strip& strip, double speed, double spin, Wrench& load) const;
+  void add_strip_mass(const Strip& strip);
+
+  QuasiSteadySettings settings_;
+  double density_, rossby_, aspect_ratio_;
+  std::vector<Strip> strips_;
+};
+
+}  // namespace flaprig

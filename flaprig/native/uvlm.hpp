@@ -1,0 +1,43 @@
+// The modified unsteady vortex lattice method (paper, section 2.1).
+#pragma once
+
+#include "air.hpp"
+#include "lattice.hpp"
+#include "settings.hpp"
+#include "wake.hpp"
+
+namespace flaprig {
+
+// Between wake ticks the bound circulation is G(t) = Gw(t) + B0 (v_z, w_x, w_y): the second part
+// follows the motion at every step, the first is carried on from the last ticks.
+class Uvlm : public Air {
+ public:
+  Uvlm(const Planform& planform, const UvlmSettings& settings, double density, Vec3 wind_w);
+
+  int state_size() const override;
+  Loads loads(const double* state, const Motion& motion) const override;
+  void advance(double* state, const Motion& motion, double dt) override;
+
+  // one step of the wake at this motion, whatever its age
+  void tick(double* state, const Motion& motion);
+  Wake wake(double* state) const;
+  const Lattice& lattice() const { return lattice_; }
+  const UvlmSettings& settings() const { return settings_; }
+  double core() const { return core_; }
+  // bound circulation at this motion, between ticks [m2/s]
+  std::vector<double> circulation(const double* state, const Motion& motion) const;
+
+ private:
+  friend class Tick;
+  struct Between;  // the wake's part at the present age
+  void steady_load(const double* g, const double* stream, const Twist& twist, Wrench& load) const;
+  void rate_load(const double* rate, Wrench& load) const;
+  void suction_load(const double* g, Wrench& load) const;
+
+  UvlmSettings settings_;
+  Lattice lattice_;
+  double density_, core_;
+  std::vector<double> suction_weight_;  // per strip: force / (G |G|)
+};
+
+}  // namespace flaprig
