@@ -43,12 +43,12 @@ def test_servos_follow_a_stroke_within_half_a_degree(step: float) -> None:
     omega, reach = 2.0 * math.pi * 0.2, np.radians([60.0, 45.0])
     mujoco.mj_resetDataKeyframe(model, data, model.key(names.START).id)
     worst = np.zeros(2)
-    # from the reversal at +phi0: sweep is a cosine, pitch has the sign of the sweep rate
+    # from the reversal at -phi0: sweep is minus a cosine, pitch has the sign of the sweep rate
     for count in range(1, round(5.0 / step)):
         phase = omega * step * count
-        target = reach * [math.cos(phase), -math.sin(phase)]
+        target = reach * [-math.cos(phase), math.sin(phase)]
         data.ctrl[where.position] = target
-        data.ctrl[where.velocity] = omega * reach * [-math.sin(phase), -math.cos(phase)]
+        data.ctrl[where.velocity] = omega * reach * [math.sin(phase), math.cos(phase)]
         mujoco.mj_step(model, data)
         if step * count > 0.1:
             worst = np.maximum(worst, np.abs(data.qpos - target))
@@ -66,7 +66,7 @@ def test_dm_control_steps_the_file() -> None:
     physics.legacy_step = False
     physics.step(50)
     assert physics.data.time == pytest.approx(0.1)
-    np.testing.assert_allclose(physics.data.qpos, [math.pi / 3, 0.0], atol=0.01)
+    np.testing.assert_allclose(physics.data.qpos, [-math.pi / 3, 0.0], atol=0.01)
 
 
 @pytest.mark.parametrize("camera", list(names.Camera))
