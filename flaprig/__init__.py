@@ -1,5 +1,8 @@
 """flaprig: the digital twin of a robotic flapping wing."""
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from flaprig.aero.coefficients import DICKINSON_1999, LEE_2016, Coefficients
 from flaprig.aero.models import UVLM, QuasiSteady
 from flaprig.aero.result import Result
@@ -9,6 +12,10 @@ from flaprig.strokes.fourier import FourierStroke
 from flaprig.strokes.sampled import SampledStroke
 from flaprig.strokes.sun_tang import SunTangStroke
 from flaprig.wing import RIG_WING, Wing
+
+if TYPE_CHECKING:
+    from flaprig.rig import Rig
+    from flaprig.twin import Twin, TwinRun
 
 __all__ = [
     "AIR",
@@ -22,8 +29,24 @@ __all__ = [
     "FourierStroke",
     "QuasiSteady",
     "Result",
+    "Rig",
     "SampledStroke",
     "SunTangStroke",
+    "Twin",
+    "TwinRun",
     "Wing",
     "simulate",
 ]
+
+# what needs MuJoCo, by the room it is in: imported when it is asked for
+_LATE = {"Rig": "rig", "Twin": "twin", "TwinRun": "twin"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATE:
+        raise AttributeError(f"module 'flaprig' has no attribute {name!r}")
+    return getattr(import_module(f"flaprig.{_LATE[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -56,6 +56,8 @@ class Sensor(StrEnum):
     AERO: force xyz [N] and torque xyz [N m] of the fluid in the wing frame about its origin, lift
     and drag [N], power given to the fluid [W]. LOAD_CELL: force and torque that the wing exerts
     on its mount, in the cell's frame. Encoders in [rad], velocities in [rad/s], torques in [N m].
+    MuJoCo reads the torques before its integrator corrects stiff servos: those of the step taken,
+    a tenth of the peak away at 5 ms, are in `TwinRun.motors`.
     """
 
     AERO = "aero"

@@ -19,7 +19,10 @@ FLOORS = (
     ("_checks", "_paths", "files", "planform", "wing", "fluid", "strokes", "theory"),
     ("native", "aero"),
     ("limits",),
-    ("motors", "plate", "rig", "twin", "feasibility"),
+    (
+        *("motors", "motor_histories", "plate", "rig", "energy"),
+        *("twin_log", "twin_run", "twin", "feasibility"),
+    ),
     ("tasks",),
     ("envs",),
     ("report", "commands", "demo", "cli", "__init__", "__main__"),

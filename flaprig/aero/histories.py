@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 class Histories:
     """Motion and loads against time; all arrays of shape (n,).
 
+    The four shares are None where nobody can tell them apart, as in the twin.
+
     Attributes:
         time: [s].
         sweep: [rad].
@@ -41,14 +43,15 @@ class Histories:
     sweep_torque: Array
     pitch_torque: Array
     power: Array
-    lift_extra: Array
-    drag_extra: Array
-    lift_added_mass: Array
-    drag_added_mass: Array
+    lift_extra: Array | None = None
+    drag_extra: Array | None = None
+    lift_added_mass: Array | None = None
+    drag_added_mass: Array | None = None
 
     def columns(self) -> dict[str, Array]:
         """Arrays by name with unit, for files: time_s, sweep_rad, lift_N, ..."""
-        return {f"{f.name}_{_unit(f.name)}": getattr(self, f.name) for f in fields(self)}
+        present = (f.name for f in fields(self) if getattr(self, f.name) is not None)
+        return {f"{name}_{_unit(name)}": getattr(self, name) for name in present}
 
 
 def _unit(name: str) -> str:

@@ -22,9 +22,14 @@ SUCTION_EFFICIENCY = 0.72
 class AirModel(Protocol):
     """An air model, as settings."""
 
-    steps_per_cycle: int
+    # name of the MuJoCo plugin, and of the two parts that its loads are kept in
     plugin: ClassVar[str]
     parts: ClassVar[tuple[str, str]]
+
+    @property
+    def steps_per_cycle(self) -> int:
+        """Instants per cycle at which the model works."""
+        ...
 
     def attributes(
         self, wing: Wing, fluid: Fluid, frequency: float, sweep_amplitude: float = SWEEP_AMPLITUDE

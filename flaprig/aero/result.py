@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import dataclass
 
@@ -10,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flaprig.aero.histories import Histories
-from flaprig.files import written_whole
+from flaprig.files import write_table
 
 Array = NDArray[np.float64]
 
@@ -138,18 +137,7 @@ class Result:
             ValueError: an ending that is neither .csv nor .npz.
             OSError: the folder does not exist or cannot be written.
         """
-        columns = self.histories.columns()
-        ending = os.path.splitext(path)[1]
-        if ending not in (".csv", ".npz"):
-            raise ValueError(f"Result.save: path must end in .csv or .npz, got {os.fspath(path)!r}")
-        with written_whole(path) as draft:
-            if ending == ".csv":
-                table = np.column_stack(list(columns.values()))
-                np.savetxt(draft, table, "%.10g", ",", header=",".join(columns), comments="")
-            else:
-                with open(draft, "wb") as stream:
-                    text = np.array(json.dumps(self.summary()))
-                    np.savez_compressed(stream, summary=text, **columns)
+        write_table("Result.save", path, self.histories.columns(), self.summary())
 
 
 def _spread(means: Array) -> float:
