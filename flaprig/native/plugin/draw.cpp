@@ -1,7 +1,8 @@
-// The wake in MuJoCo's viewer and renderers: lines across and along the vortex sheet.
+// The wake in MuJoCo's viewer and renderers: the faces of the vortex sheet, coloured by circulation.
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "../uvlm.hpp"
 #include "instance.hpp"
@@ -9,23 +10,50 @@
 namespace flaprig {
 namespace {
 
-void line(mjvScene* scene, Vec3 a, Vec3 b, const float rgba[4]) {
-  if (scene->ngeom >= scene->maxgeom) return;
-  mjvGeom* geom = scene->geoms + scene->ngeom++;
-  mjv_initGeom(geom, mjGEOM_LINE, nullptr, nullptr, nullptr, rgba);
-  const mjtNum from[3] = {a.x, a.y, a.z}, to[3] = {b.x, b.y, b.z};
-  mjv_connector(geom, mjGEOM_LINE, 1.5, from, to);
-  geom->category = mjCAT_DECOR;
+struct Colour {
+  float r, g, b, a;
+};
+
+// blue (negative) through light grey to vermilion (positive), as flaprig/report/style.py:
+// M. Okabe & K. Ito, Color universal design (2008)
+constexpr Colour kStops[] = {{0.02f, 0.23f, 0.42f, 1}, {0.00f, 0.45f, 0.70f, 1},
+                             {0.50f, 0.73f, 0.87f, 1}, {0.91f, 0.93f, 0.93f, 1},
+                             {0.95f, 0.70f, 0.50f, 1}, {0.84f, 0.37f, 0.00f, 1},
+                             {0.48f, 0.18f, 0.00f, 1}};
+constexpr int kPieces = 6;
+// the sheet glows a little, so that its far side is not black
+constexpr float kEmission = 0.12f;
+
+// strength from -1 to 1; old rings fade, because they fold into each other
+Colour colour(double strength, double age) {
+  const float x = static_cast<float>(kPieces * (0.5 + 0.5 * std::clamp(strength, -1.0, 1.0)));
+  const int i = std::min(static_cast<int>(x), kPieces - 1);
+  const float s = x - static_cast<float>(i);
+  const Colour &a = kStops[i], &b = kStops[i + 1];
+  const auto mix = [s](float from, float to) { return from + s * (to - from); };
+  return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b),
+          static_cast<float>(0.96 * std::pow(1 - age, 1.4) + 0.02)};
 }
 
-// orange for positive, blue for negative circulation, fading with age
-void colour(double strength, double age, float rgba[4]) {
-  const float s = static_cast<float>(std::clamp(strength, -1.0, 1.0));
-  const float pale = 0.75f * (1 - std::abs(s));
-  rgba[0] = s > 0 ? 0.90f : pale + 0.1f;
-  rgba[1] = std::max(pale, 0.45f);
-  rgba[2] = s > 0 ? pale : 0.85f;
-  rgba[3] = static_cast<float>(0.9 - 0.7 * age);
+// MuJoCo's triangle has corners 0, x and y of its own frame
+void triangle(mjvScene* scene, Vec3 a, Vec3 b, Vec3 c, const Colour& rgba) {
+  if (scene->ngeom >= scene->maxgeom) return;
+  mjvGeom* geom = scene->geoms + scene->ngeom++;
+  const Vec3 u = b - a, v = c - a, n = cross(u, v);
+  const mjtNum size[3] = {1, 1, 1}, origin[3] = {a.x, a.y, a.z};
+  const mjtNum frame[9] = {u.x, v.x, n.x, u.y, v.y, n.y, u.z, v.z, n.z};
+  mjv_initGeom(geom, mjGEOM_TRIANGLE, size, origin, frame, &rgba.r);
+  geom->category = mjCAT_DECOR;
+  geom->emission = kEmission;
+}
+
+// nearly the largest: one outlier must not fade the rest
+double strong(const double* strengths, int count) {
+  std::vector<double> sizes(strengths, strengths + count);
+  for (double& size : sizes) size = std::abs(size);
+  const auto place = sizes.begin() + (count - 1) * 995 / 1000;
+  std::nth_element(sizes.begin(), place, sizes.end());
+  return std::max(*place, 1e-12);
 }
 
 }  // namespace
@@ -36,18 +64,19 @@ void Instance::draw(const mjModel*, const mjData*, mjvScene* scene, Memory memor
   Wake wake = air->wake(memory.air());
   const int rows = static_cast<int>(wake.rows()), n = wake.strips;
   if (wake.started() == 0 || rows == 0) return;
-  double strongest = 1e-12;
-  for (int k = 0; k < rows * n; ++k) strongest = std::max(strongest, std::abs(wake.strengths()[k]));
-  // lines along and across; the scene's room decides how many rows are left out
-  const int room = std::max(1, (scene->maxgeom - scene->ngeom) / (2 * n + 2));
-  const int skip = 1 + rows / room;
-  for (int row = 0; row + skip <= rows; row += skip) {
-    for (int j = 0; j <= n; ++j) {
-      float rgba[4];
-      const double g = wake.strengths()[row * n + std::min(j, n - 1)];
-      colour(g / strongest, static_cast<double>(row) / rows, rgba);
-      line(scene, wake.vertex(row, j), wake.vertex(row + skip, j), rgba);
-      if (j < n) line(scene, wake.vertex(row, j), wake.vertex(row, j + 1), rgba);
+  const double strongest = strong(wake.strengths(), rows * n);
+  // a scene with little room gets fewer and longer faces
+  const int room = std::max(1, (scene->maxgeom - scene->ngeom) / (2 * n));
+  const int skip = 1 + (rows - 1) / room;
+  for (int row = 0; row < rows; row += skip) {
+    const int next = std::min(row + skip, rows);
+    for (int j = 0; j < n; ++j) {
+      const double g = wake.strengths()[row * n + j] / strongest;
+      const Colour rgba = colour(g, static_cast<double>(row) / rows);
+      const Vec3 a = wake.vertex(row, j), b = wake.vertex(next, j);
+      const Vec3 c = wake.vertex(next, j + 1), d = wake.vertex(row, j + 1);
+      triangle(scene, a, b, c, rgba);
+      triangle(scene, a, c, d, rgba);
     }
   }
 }

@@ -1,0 +1,138 @@
+"""The command line: reads the arguments, runs one subcommand, turns errors into one sentence.
+
+Exit codes: 0 fine, 1 the run failed, 2 bad input, 130 stopped with Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import redirect_stderr
+from importlib.metadata import PackageNotFoundError, version
+from typing import Annotated, Any
+
+import tyro
+from tyro.conf import FlagCreatePairsOff, OmitArgPrefixes, OmitSubcommandPrefixes, subcommand
+
+from flaprig.commands import demo, simulate, twin, view
+from flaprig.report.folder import Folder
+
+FAILED, BAD_INPUT, STOPPED = 1, 2, 130
+
+Command = (
+    Annotated[simulate.Simulate, subcommand("simulate")]
+    | Annotated[twin.Twin, subcommand("twin")]
+    | Annotated[view.View, subcommand("view")]
+    | Annotated[demo.Demo, subcommand("demo")]
+)
+_RUN: dict[type, Callable[[Any, Folder], None]] = {
+    simulate.Simulate: simulate.run,
+    twin.Twin: twin.run,
+    view.View: view.run,
+    demo.Demo: demo.run,
+}
+_CONFIG = (OmitArgPrefixes, OmitSubcommandPrefixes, FlagCreatePairsOff)
+_ABOUT = "The digital twin of a robotic flapping wing. Angles are in degrees, all else in SI units."
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code.
+
+    Args:
+        argv: arguments without the program's name; those of the process when None.
+    """
+    words = list(sys.argv[1:] if argv is None else argv)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            # a terminal of few letters gets a question mark for ±
+            stream.reconfigure(errors="replace")
+    if words == ["--version"]:
+        print(_version())
+        return 0
+    try:
+        args = _parse(words)
+    except ValueError as error:
+        return _say(str(error), BAD_INPUT)
+    folder = Folder(getattr(args, "out", None))
+    try:
+        return _run(args, folder)
+    except KeyboardInterrupt:
+        return _say(f"stopped; {_kept(folder)}", STOPPED)
+    except BrokenPipeError:
+        # the reader went away: not even the flush at exit may complain
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
+
+
+def _run(args: Any, folder: Folder) -> int:
+    """Run the subcommand; expected errors become a sentence and an exit code."""
+    try:
+        _RUN[type(args)](args, folder)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except (ValueError, OSError) as error:
+        return _say(_sentence(error), BAD_INPUT)
+    except (ArithmeticError, ImportError, RuntimeError) as error:
+        return _say(_sentence(error), FAILED)
+    return 0
+
+
+def _parse(argv: list[str]) -> Any:
+    """The arguments of one subcommand.
+
+    Raises:
+        ValueError: what tyro says about wrong arguments, as one sentence.
+        SystemExit: help was asked for and has been printed.
+    """
+    complaint = io.StringIO()
+    try:
+        with redirect_stderr(complaint):
+            return tyro.cli(Command, prog="flaprig", description=_ABOUT, args=argv, config=_CONFIG)
+    except SystemExit as stop:
+        if stop.code in (0, None):
+            raise
+        words = _first_paragraph(complaint.getvalue()).rstrip(".")
+        raise ValueError(f"{words} (flaprig --help says what is possible)") from None
+
+
+def _first_paragraph(box: str) -> str:
+    """The words of tyro's error box, without frame, title and advice."""
+    lines = [line.strip(" │") for line in box.splitlines()]
+    blocks: list[list[str]] = [[]]
+    for line in lines:
+        if line.startswith(("╭", "╰")) or (line and set(line) <= set("─-")):
+            blocks.append([])
+        elif line:
+            blocks[-1].append(line)
+    found = [" ".join(block) for block in blocks if block]
+    # with plain ASCII the title is a block of its own
+    title = 0 if box.startswith("╭") else 1
+    return found[title] if len(found) > title else " ".join(box.split())
+
+
+def _sentence(error: Exception) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        where = f"{error.filename}: " if error.filename else ""
+        return f"{where}{error.strerror}"
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+def _kept(folder: Folder) -> str:
+    if not folder.written:
+        return "nothing was written"
+    return f"complete in {folder.path}: {', '.join(path.name for path in folder.written)}"
+
+
+def _say(sentence: str, code: int) -> int:
+    print(f"flaprig: {sentence}", file=sys.stderr)
+    return code
+
+
+def _version() -> str:
+    try:
+        return version("flaprig")
+    except PackageNotFoundError:
+        return "not installed"

@@ -1,0 +1,1 @@
+"""The subcommands: one file each, with its arguments as a dataclass and a `run` function."""

@@ -1,0 +1,179 @@
+"""Options that several subcommands share: stroke, wing, fluid and model of the air.
+
+Degrees live here and nowhere else: every builder returns objects in SI units and radians.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from tyro.conf import arg
+
+from flaprig import _checks as check
+from flaprig.aero.coefficients import DICKINSON_1999, LEE_2016
+from flaprig.aero.models import UVLM, QuasiSteady
+from flaprig.fluid import WATER, Fluid
+from flaprig.strokes import Stroke, SunTangStroke, load
+from flaprig.wing import PITCH_AXIS, RIG_WING, Wing
+
+# the models' own defaults, shown by --help
+_UVLM, _QUASI_STEADY = UVLM(), QuasiSteady()
+_STEPS = f"(default: {_UVLM.steps_per_cycle}, {_QUASI_STEADY.steps_per_cycle})"
+# options of the vortex lattice alone, by field of ModelOptions
+_LATTICE = ("chordwise", "spanwise", "suction_efficiency", "core", "wake_cycles", "threads")
+
+
+@dataclass(frozen=True)
+class StrokeOptions:
+    """The motion: constant rates with smooth reversals, or what a stroke file says.
+
+    Attributes:
+        frequency: strokes per second [Hz].
+        sweep_amplitude: half of the peak-to-peak sweep [degrees].
+        pitch_amplitude: half of the peak-to-peak pitch, from the vertical [degrees].
+        sweep_duration: length of a sweep reversal [cycles]; 0.5 makes the sweep sinusoidal.
+        pitch_duration: length of a pitch flip [cycles]; 0.5 makes the pitch sinusoidal.
+        file: a stroke file, JSON or CSV, instead of the five options above.
+    """
+
+    frequency: float = 0.2
+    sweep_amplitude: float = 60.0
+    pitch_amplitude: float = 45.0
+    sweep_duration: float = 0.5
+    pitch_duration: float = 0.5
+    file: Annotated[
+        Path | None, arg(name="stroke", metavar="FILE", help_behavior_hint="(optional)")
+    ] = None
+
+    def build(self) -> Stroke:
+        """The stroke.
+
+        Raises:
+            ValueError: a value out of range, a wrong file, or a file and a formula together.
+            OSError: the file cannot be read.
+        """
+        if self.file is not None:
+            _refuse_changed(self, [f.name for f in fields(self)][:-1], "with --stroke FILE")
+            return load(self.file)
+        for name in ("sweep_amplitude", "pitch_amplitude"):
+            check.in_range("stroke", _flag(name), getattr(self, name), 0.0, 180.0, "degrees")
+        return SunTangStroke(
+            self.frequency,
+            math.radians(self.sweep_amplitude),
+            math.radians(self.pitch_amplitude),
+            self.sweep_duration,
+            self.pitch_duration,
+        )
+
+
+@dataclass(frozen=True)
+class WingOptions:
+    """The wing; the rig's own unless said otherwise.
+
+    Attributes:
+        planform: a rectangle, or Ellington's beta planform (chord is then the mean chord).
+        span: root to tip [m].
+        chord: chord, or mean chord [m].
+        root_offset: sweep axis to root [m].
+        pitch_axis: leading edge to pitch axis [chords].
+        r1: beta planform: radius of the first moment of area [spans]; 0.5 when left out.
+        r2: beta planform: radius of the second moment [spans]; from r1 when left out.
+    """
+
+    planform: Literal["rectangle", "beta"] = "rectangle"
+    span: float = RIG_WING.span
+    chord: float = RIG_WING.mean_chord
+    root_offset: float = RIG_WING.root_offset
+    pitch_axis: float = PITCH_AXIS
+    r1: Annotated[float | None, arg(metavar="FLOAT", help_behavior_hint="(optional)")] = None
+    r2: Annotated[float | None, arg(metavar="FLOAT", help_behavior_hint="(optional)")] = None
+
+    def build(self) -> Wing:
+        """The wing.
+
+        Raises:
+            ValueError: a value out of range, or radii of a beta planform for a rectangle.
+        """
+        if self.planform == "beta":
+            r1 = 0.5 if self.r1 is None else self.r1
+            return Wing.beta(self.span, self.chord, r1, self.r2, self.root_offset, self.pitch_axis)
+        _refuse_changed(self, ["r1", "r2"], "with --planform rectangle")
+        return Wing.rectangular(self.span, self.chord, self.root_offset, self.pitch_axis)
+
+
+@dataclass(frozen=True)
+class FluidOptions:
+    """The fluid; water unless said otherwise.
+
+    Attributes:
+        density: mass density [kg/m3].
+        viscosity: kinematic viscosity [m2/s].
+    """
+
+    density: float = WATER.density
+    viscosity: float = WATER.kinematic_viscosity
+
+    def build(self) -> Fluid:
+        """The fluid. ValueError for a value that is not a positive number."""
+        return Fluid(self.density, self.viscosity)
+
+
+@dataclass(frozen=True)
+class ModelOptions:
+    """How the fluid is modelled.
+
+    Attributes:
+        kind: the vortex lattice with its free wake, or quasi-steady blade elements.
+        steps_per_cycle: wake rows shed (uvlm) or loads reported (quasi-steady) in one cycle.
+        chordwise: uvlm: panels along the chord.
+        spanwise: uvlm: panels along the span.
+        suction_efficiency: uvlm: share of the leading-edge suction, calibrated on the rig's
+            sinusoid (eta_s of the paper's eq. 6).
+        core: uvlm: radius of the vortex core [mean chords].
+        wake_cycles: uvlm: length of wake kept [cycles].
+        threads: uvlm: threads of the wake's roll-up; results do not depend on it.
+        coefficients: quasi-steady: set of lift and drag coefficients.
+    """
+
+    kind: Annotated[Literal["uvlm", "quasi-steady"], arg(name="model")] = "uvlm"
+    steps_per_cycle: Annotated[int | None, arg(metavar="INT", help_behavior_hint=_STEPS)] = None
+    chordwise: int = _UVLM.chordwise
+    spanwise: int = _UVLM.spanwise
+    suction_efficiency: float = _UVLM.suction_efficiency
+    core: float = _UVLM.core
+    wake_cycles: float = _UVLM.wake_cycles
+    threads: int = _UVLM.threads
+    coefficients: Literal["dickinson1999", "lee2016"] = "dickinson1999"
+
+    def build(self) -> UVLM | QuasiSteady:
+        """The model.
+
+        Raises:
+            ValueError: a value out of range, or an option of the other model.
+        """
+        if self.kind == "uvlm":
+            _refuse_changed(self, ["coefficients"], "with --model uvlm")
+            lattice = {name: getattr(self, name) for name in _LATTICE}
+            return UVLM(steps_per_cycle=self._steps(_UVLM.steps_per_cycle), **lattice)
+        _refuse_changed(self, list(_LATTICE), "with --model quasi-steady")
+        named = {c.name: c for c in (DICKINSON_1999, LEE_2016)}
+        steps = self._steps(_QUASI_STEADY.steps_per_cycle)
+        return QuasiSteady(named[self.coefficients], steps_per_cycle=steps)
+
+    def _steps(self, usual: int) -> int:
+        return usual if self.steps_per_cycle is None else self.steps_per_cycle
+
+
+def _flag(field: str) -> str:
+    return "--" + field.replace("_", "-")
+
+
+def _refuse_changed(options: Any, names: list[str], when: str) -> None:
+    """An option that would be ignored is an error, not a surprise."""
+    for field in fields(options):
+        value = getattr(options, field.name)
+        if field.name in names and value != field.default:
+            raise check.fail("options", _flag(field.name), f"left out {when}", value)

@@ -1,0 +1,66 @@
+"""`flaprig simulate`: a wing that follows a stroke exactly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated
+
+from tyro.conf import arg
+
+import flaprig
+from flaprig.commands import options
+from flaprig.commands.progress import progress
+from flaprig.commands.run_output import Case, tell, timed, write_pictures
+from flaprig.report.folder import Folder
+from flaprig.report.numbers import as_json
+
+
+@dataclass(frozen=True)
+class Simulate:
+    """Loads on a wing that follows a stroke exactly.
+
+    Prints mean coefficients with their spread from cycle to cycle. The defaults are the rig of the
+    paper in water on its sinusoidal stroke.
+
+    Attributes:
+        cycles: number of cycles; means are over the third to the last, at most three.
+        json: print exactly one JSON object and nothing else.
+        out: folder for histories.csv, histories.npz, summary.json, forces.png and wake.png.
+    """
+
+    stroke: options.StrokeOptions = field(default_factory=options.StrokeOptions)
+    wing: options.WingOptions = field(default_factory=options.WingOptions)
+    fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
+    model: options.ModelOptions = field(default_factory=options.ModelOptions)
+    cycles: int = 5
+    json: bool = False
+    out: Annotated[Path | None, arg(metavar="DIR", help_behavior_hint="(optional)")] = None
+
+
+def run(args: Simulate, folder: Folder) -> None:
+    """Simulate, write, tell.
+
+    Raises:
+        ValueError: bad input.
+        FloatingPointError: the loads are not finite.
+        OSError: a file cannot be read or written.
+    """
+    case = Case(
+        args.wing.build(),
+        args.stroke.build(),
+        args.model.build(),
+        args.fluid.build(),
+        args.cycles,
+    )
+    folder.create()
+    with timed() as spent, progress("simulate") as told:
+        result = flaprig.simulate(
+            case.wing, case.stroke, case.model, case.fluid, case.cycles, progress=told
+        )
+    summary = {"command": "simulate", **case.summary(), **result.summary(), **spent}
+    folder.write("histories.csv", result.save)
+    folder.write("histories.npz", result.save)
+    folder.write_text("summary.json", as_json(summary) + "\n")
+    write_pictures(folder, case, result)
+    tell(args.json, case.title, summary, folder)

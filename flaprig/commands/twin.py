@@ -1,0 +1,90 @@
+"""`flaprig twin`: the motors of the rig follow a stroke, and the fluid answers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from tyro.conf import arg
+
+from flaprig.commands import options
+from flaprig.commands.progress import progress
+from flaprig.commands.run_output import Case, tell, timed, write_pictures
+from flaprig.report.folder import Folder
+from flaprig.report.motors import draw_motors
+from flaprig.report.numbers import as_json
+
+if TYPE_CHECKING:
+    from flaprig.aero.air import Progress
+    from flaprig.twin import TwinRun
+
+
+@dataclass(frozen=True)
+class Twin:
+    """The rig in MuJoCo: its servos follow a stroke in the fluid.
+
+    Prints mean coefficients of the motion really made, with their spread from cycle to cycle.
+
+    Attributes:
+        cycles: number of cycles; means are over the third to the last, at most three.
+        time_step: of MuJoCo [s].
+        json: print exactly one JSON object and nothing else.
+        out: folder for histories.csv, histories.npz, summary.json, motors.png, forces.png and
+            wake.png.
+    """
+
+    stroke: options.StrokeOptions = field(default_factory=options.StrokeOptions)
+    wing: options.WingOptions = field(default_factory=options.WingOptions)
+    fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
+    model: options.ModelOptions = field(default_factory=options.ModelOptions)
+    cycles: int = 3
+    time_step: float = 0.002
+    json: bool = False
+    out: Annotated[Path | None, arg(metavar="DIR", help_behavior_hint="(optional)")] = None
+
+
+def run(args: Twin, folder: Folder) -> None:
+    """Run the rig, write, tell.
+
+    Raises:
+        ValueError: bad input.
+        ImportError: the plugin library is missing or does not fit MuJoCo.
+        OSError: a file cannot be read or written.
+    """
+    case = Case(
+        args.wing.build(),
+        args.stroke.build(),
+        args.model.build(),
+        args.fluid.build(),
+        args.cycles,
+    )
+    folder.create()
+    with timed() as spent, progress("twin") as told:
+        done = fly(case, args.time_step, told)
+    summary = {"command": "twin", **case.summary(), **done.summary(), **spent}
+    folder.write("histories.csv", done.save)
+    folder.write("histories.npz", done.save)
+    folder.write_text("summary.json", as_json(summary) + "\n")
+    write_motors(folder, done, case)
+    write_pictures(folder, case, done.result)
+    tell(args.json, f"twin, {case.title}", summary, folder)
+
+
+def fly(case: Case, time_step: float, told: Progress | None) -> TwinRun:
+    """The rig's run of a case."""
+    # mujoco takes half a second to import: not for --help
+    from flaprig.rig import Rig
+    from flaprig.twin import Twin as Machine
+
+    rig = Rig.load().with_(
+        wing=case.wing, fluid=case.fluid, model=case.model, frequency=case.stroke.frequency
+    )
+    return Machine(rig, time_step=time_step).run(case.stroke, case.cycles, told)
+
+
+def write_motors(folder: Folder, done: TwinRun, case: Case) -> None:
+    """motors.png."""
+    title = f"Servos, {case.title}"
+    period = case.stroke.period
+    folder.write("motors.png", lambda draft: draw_motors(draft, done.motors, period, title))

@@ -1,0 +1,1 @@
+"""What people see of a run: tables, pictures, videos and the files that keep them."""
