@@ -7,6 +7,10 @@ from dataclasses import dataclass
 from flaprig import _checks as check
 
 
+# fastest wind that the native code accepts [m/s]
+MOST_WIND = 1000.0
+
+
 @dataclass(frozen=True)
 class Fluid:
     """An incompressible fluid.
@@ -14,19 +18,24 @@ class Fluid:
     Attributes:
         density: mass density in [kg/m3], positive.
         kinematic_viscosity: viscosity over density in [m2/s], positive.
+        wind: uniform velocity of the undisturbed fluid, world axes, in [m/s]. Length 3.
 
     Raises:
-        ValueError: a value that is not a positive finite number.
+        ValueError: a density or viscosity that is not a positive finite number, or a wind that is
+            not three numbers within 1000 m/s.
     """
 
     density: float
     kinematic_viscosity: float
+    wind: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
         density = check.positive("Fluid", "density", self.density, "kg/m3")
         viscosity = check.positive("Fluid", "kinematic_viscosity", self.kinematic_viscosity, "m2/s")
         object.__setattr__(self, "density", density)
         object.__setattr__(self, "kinematic_viscosity", viscosity)
+        wind = check.array("Fluid", "wind", self.wind, "m/s", length=3, most=MOST_WIND)
+        object.__setattr__(self, "wind", tuple(wind.tolist()))
 
     @property
     def dynamic_viscosity(self) -> float:

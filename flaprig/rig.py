@@ -97,7 +97,7 @@ _INPUTS = int(
     | mujoco.mjtCtrlInput.mjINPUT_FF
 )
 # plugin attributes that stay as the file has them, unless the model of the air names them
-_KEPT = ("site", "wind", "buoyancy")
+_KEPT = ("site", "buoyancy")
 
 
 @dataclass(frozen=True)

@@ -26,3 +26,13 @@ def test_bad_fields_give_one_sentence(name, bad):
     fields = {"density": 1.0, "kinematic_viscosity": 1.0} | {name: bad}
     with pytest.raises(ValueError, match=f"^Fluid: {name} must be a .*number.*, got "):
         Fluid(**fields)
+
+
+def test_wind_is_part_of_the_value():
+    assert Fluid(1000, 1e-6, (0, 0, 0)) == WATER != Fluid(1000, 1e-6, (0.1, 0, 0))
+
+
+@pytest.mark.parametrize("bad", [(0, 0), (0, 0, np.nan), (0, 0, 1e9), 1.0, None, "abc"])
+def test_bad_wind_gives_one_sentence(bad):
+    with pytest.raises(ValueError, match=r"^Fluid: wind.* must be .*, got "):
+        Fluid(1000, 1e-6, bad)

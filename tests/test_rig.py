@@ -71,8 +71,8 @@ def test_file_has_the_default_air() -> None:
     }
 
 
-def number(text: str) -> float | str:
-    return text if text.isidentifier() else float(text)
+def number(text: str) -> list[float] | str:
+    return text if text.isidentifier() else [float(word) for word in text.split()]
 
 
 def test_only_the_plate_has_mass(compiled: mujoco.MjModel) -> None:

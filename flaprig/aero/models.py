@@ -39,11 +39,12 @@ class AirModel(Protocol):
 
 
 def geometry_attributes(wing: Wing, fluid: Fluid) -> dict[str, str]:
-    """Attributes that both plugins share: planform, thickness, fluid density."""
+    """Attributes that both plugins share: planform, thickness, the fluid's density and wind."""
     return {
         "stations": " ".join(repr(float(x)) for x in wing.stations.ravel()),
         "thickness": repr(wing.thickness),
         "density": repr(fluid.density),
+        "wind": " ".join(repr(speed) for speed in fluid.wind),
     }
 
 

@@ -111,14 +111,16 @@ class FluidOptions:
     Attributes:
         density: mass density [kg/m3].
         viscosity: kinematic viscosity [m2/s].
+        wind: uniform velocity of the fluid, z up, sweep measured from x [m/s].
     """
 
     density: float = WATER.density
     viscosity: float = WATER.kinematic_viscosity
+    wind: tuple[float, float, float] = WATER.wind
 
     def build(self) -> Fluid:
         """The fluid. ValueError for a value that is not a positive number."""
-        return Fluid(self.density, self.viscosity)
+        return Fluid(self.density, self.viscosity, self.wind)
 
 
 @dataclass(frozen=True)
