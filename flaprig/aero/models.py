@@ -111,16 +111,16 @@ class UVLM:
         """
         check.positive("UVLM", "frequency", frequency, "Hz")
         settings = {
-            "chordwise": self.chordwise,
-            "spanwise": self.spanwise,
-            "wake_step": 1.0 / (frequency * self.steps_per_cycle),
+            "chordwise": int(self.chordwise),
+            "spanwise": int(self.spanwise),
+            "wake_step": float(1.0 / (frequency * self.steps_per_cycle)),
             "wake_rows": max(1, round(self.wake_cycles * self.steps_per_cycle)),
             "core": float(self.core),
             "shedding_fraction": float(self.shedding_fraction),
             "tip_inset": float(self.tip_inset),
             "suction_efficiency": float(self.suction_efficiency),
             "suction_factor": float(self.suction_factor),
-            "threads": self.threads,
+            "threads": int(self.threads),
         }
         text = {name: repr(value) for name, value in settings.items()}
         return geometry_attributes(wing, fluid) | text
@@ -184,5 +184,5 @@ class QuasiSteady:
             settings["coefficient_table"] = " ".join(rows)
         if self.coefficients.name == "lee2016":
             speed = 4.0 * frequency * sweep_amplitude * wing.radius_of_second_moment
-            settings["reynolds"] = repr(speed * wing.mean_chord / fluid.kinematic_viscosity)
+            settings["reynolds"] = repr(float(speed * wing.mean_chord / fluid.kinematic_viscosity))
         return settings

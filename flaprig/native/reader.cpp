@@ -28,6 +28,20 @@ std::string shown(double value) {
 
 }  // namespace
 
+std::string quoted(std::string text) {
+  constexpr size_t kLongest = 60;  // bytes
+  if (text.size() > kLongest) {
+    size_t end = kLongest;
+    // 10xxxxxx goes on with a character begun before it
+    while (end > 0 && (text[end] & 0xC0) == 0x80) --end;
+    text = text.substr(0, end) + "...";
+  }
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  return "\"" + text + "\"";
+}
+
 bool Reader::has(const char* name) const {
   const auto found = attributes_.find(name);
   return found != attributes_.end() && found->second.find_first_not_of(kBlank) != std::string::npos;
@@ -35,11 +49,9 @@ bool Reader::has(const char* name) const {
 
 void Reader::refuse(const char* name, const std::string& allowed) const {
   const auto found = attributes_.find(name);
-  std::string value = found == attributes_.end() ? "" : found->second;
-  constexpr size_t kLongest = 60;
-  if (value.size() > kLongest) value = value.substr(0, kLongest) + "...";
-  throw std::invalid_argument(std::string(name) + " must be " + allowed + ", got \"" + value +
-                              "\"");
+  const std::string value = found == attributes_.end() ? "" : found->second;
+  throw std::invalid_argument(std::string(name) + " must be " + allowed + ", got " +
+                              quoted(value));
 }
 
 std::string Reader::text(const char* name, const std::string& fallback) const {

@@ -13,6 +13,9 @@ struct Range {
   bool open_low = false;  // low itself is not allowed
 };
 
+// text between quotation marks, short, on one line and still UTF-8 after the cut
+std::string quoted(std::string text);
+
 class Reader {
  public:
   explicit Reader(const Attributes& attributes) : attributes_(attributes) {}

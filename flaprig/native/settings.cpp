@@ -122,7 +122,8 @@ void check_names(Model model, const Attributes& attributes) {
   for (const auto& [name, value] : attributes) {
     bool known = false;
     for (const char* allowed : attribute_names(model)) known = known || name == allowed;
-    if (!known) throw std::invalid_argument("there is no attribute \"" + name + "\"; use " + list);
+    if (known) continue;
+    throw std::invalid_argument("there is no attribute " + quoted(name) + "; use " + list);
   }
 }
 

@@ -7,8 +7,7 @@
 
 namespace flaprig {
 
-// J, the motion, and its rate at zero acceleration
-void Instance::read_motion(const mjModel* m, mjData* d) {
+void Instance::find_jacobian(const mjModel* m, const mjData* d) {
   const int nv = m->nv;
   motion_.position_w = vec3(d->site_xpos + 3 * site_);
   std::copy_n(d->site_xmat + 9 * site_, 9, motion_.rotation.m.begin());
@@ -25,6 +24,11 @@ void Instance::read_motion(const mjModel* m, mjData* d) {
   mj_jacSite(m, d, jacobian_.data(), jacobian_.data() + 3 * nv, site_);
   mj_jacDot(m, d, scratch_.data(), scratch_.data() + 3 * nv, d->site_xpos + 3 * site_, body_);
   to_wing(jacobian_), to_wing(scratch_);
+}
+
+// J, the motion, and its rate at zero acceleration
+void Instance::read_motion(const mjModel* m, const mjData* d) {
+  find_jacobian(m, d);
   motion_.twist = through_jacobian(d->qvel);
   jacobian_.swap(scratch_);
   motion_.twist_rate = through_jacobian(d->qvel);
@@ -68,23 +72,51 @@ Wrench Instance::buoyancy(const mjModel* m) const {
   return {force, cross(centroid_, force)};
 }
 
-void Instance::compute(const mjModel* m, mjData* d) {
-  read_motion(m, d);
-  add_mass(m, d);
+// all of the load but the added mass on the joints' acceleration
+void Instance::find_load(const mjModel* m, const mjData* d) {
   const double* state = Memory{d->plugin_state + m->plugin_stateadr[id_]}.air();
   const Loads loads = air_->loads(state, motion_);
   const Motion relative = relative_to_wind(motion_, air_->wind_w());
   velocity_load_ = loads.base + loads.extra + buoyancy(m) +
                    added_mass_wrench(air_->added_mass(), relative.twist_rate);
+  computed_ = true;
+}
+
+void Instance::compute(const mjModel* m, mjData* d) {
+  read_motion(m, d);
+  find_load(m, d);
+  // MuJoCo leaves M of a sleeping tree as it is, and so must we
+  const int tree = m->body_treeid[body_];
+  if (tree < 0 || !d->tree_awake[tree]) return;
+  add_mass(m, d);
   const Vec3 force = motion_.rotation * velocity_load_.force;
   const Vec3 torque = motion_.rotation * velocity_load_.torque;
   const mjtNum f[3] = {force.x, force.y, force.z}, t[3] = {torque.x, torque.y, torque.z};
   mj_applyFT(m, d, f, t, d->site_xpos + 3 * site_, body_, d->qfrc_passive);
 }
 
+void Instance::copy_stage(const Instance& other) {
+  computed_ = other.computed_;
+  motion_ = other.motion_;
+  velocity_load_ = other.velocity_load_;
+  jacobian_ = other.jacobian_;
+}
+
+// mjData was pickled in the middle of a step: its velocities still are those of the beginning,
+// qvel is not
+void Instance::recover(const mjModel* m, const mjData* d) {
+  read_motion(m, d);
+  mjtNum twist[6];  // angular first
+  mj_objectVelocity(m, d, mjOBJ_SITE, site_, twist, 1);
+  motion_.twist = {vec3(twist + 3), vec3(twist)};
+  find_load(m, d);
+}
+
 // Here qpos, qvel and time are the new ones, everything else is still of the step's beginning.
 // The acceleration of the step is (v_new - v_old)/dt under every integrator; d->qacc is not.
 void Instance::advance(const mjModel* m, mjData* d, Memory memory) {
+  if (!computed_) recover(m, d);
+  computed_ = false;
   const double dt = m->opt.timestep;
   const Twist after = through_jacobian(d->qvel), &before = motion_.twist;
   const Twist joint_rate = {(1 / dt) * (after.linear - before.linear),
@@ -96,7 +128,7 @@ void Instance::advance(const mjModel* m, mjData* d, Memory memory) {
                       joint_rate.angular + motion_.twist_rate.angular};
   put(on_mount(m, air, rate), memory.mount());
   air_->advance(memory.air(), motion_, dt);
-  sense(m, d, memory);
+  if (!(m->opt.disableflags & mjDSBL_SENSOR)) sense(m, d, memory, false);
 }
 
 }  // namespace flaprig

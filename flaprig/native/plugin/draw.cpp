@@ -64,6 +64,9 @@ void Instance::draw(const mjModel*, const mjData*, mjvScene* scene, Memory memor
   Wake wake = air->wake(memory.air());
   const int rows = static_cast<int>(wake.rows()), n = wake.strips;
   if (wake.started() == 0 || rows == 0) return;
+  const double* g0 = wake.strengths();
+  // a broken wake has no colour
+  if (!std::all_of(g0, g0 + rows * n, [](double g) { return std::isfinite(g); })) return;
   const double strongest = strong(wake.strengths(), rows * n);
   // a scene with little room gets fewer and longer faces
   const int room = std::max(1, (scene->maxgeom - scene->ngeom) / (2 * n));

@@ -14,8 +14,15 @@ namespace flaprig {
 
 Vec3 vec3(const mjtNum* p);
 Attributes attributes_of(const mjModel* m, int instance, Model model);
-// the text of what is wrong with the model's options, or nullptr
-const char* refused_option(const mjModel* m);
+// throws std::invalid_argument when the model's options would make the air's loads wrong
+void require_options(const mjModel* m);
+
+struct Place {
+  int body, site;
+};
+
+// where the instance sits; throws std::invalid_argument with one sentence
+Place place_of(const mjModel* m, int instance, const PlateSettings& plate);
 
 class Instance {
  public:
@@ -27,13 +34,17 @@ class Instance {
   // the step that `compute` began is over: remember its loads, move the wake
   void advance(const mjModel* m, mjData* d, Memory memory);
   // fills the instance's sensors from memory
-  void sense(const mjModel* m, mjData* d, Memory memory) const;
+  void sense(const mjModel* m, mjData* d, Memory memory, bool all) const;
+  // takes over what the other's last compute found
+  void copy_stage(const Instance& other);
   void draw(const mjModel* m, const mjData* d, mjvScene* scene, Memory memory) const;
 
  private:
-  void place(const mjModel* m);
   void check_dofs(const mjModel* m) const;
-  void read_motion(const mjModel* m, mjData* d);
+  void find_jacobian(const mjModel* m, const mjData* d);
+  void read_motion(const mjModel* m, const mjData* d);
+  void find_load(const mjModel* m, const mjData* d);
+  void recover(const mjModel* m, const mjData* d);
   void add_mass(const mjModel* m, mjData* d) const;
   Twist through_jacobian(const mjtNum* velocity) const;
   Wrench buoyancy(const mjModel* m) const;
@@ -41,7 +52,7 @@ class Instance {
   Wrench at_site(const mjModel* m, int site, const Wrench& w) const;
   void log(const mjModel* m, const Wrench& air, const Twist& mean, Memory memory) const;
 
-  int id_, body_ = -1, site_ = -1;
+  int id_, body_, site_;
   Model model_;
   PlateSettings plate_;
   double plate_weight_;  // of the fluid it displaces, per unit gravity [kg]
@@ -50,6 +61,7 @@ class Instance {
   std::vector<int> dofs_;  // that move the body, root first
 
   // of the last compute: rebuilt each step, so no part of the state
+  bool computed_ = false;
   Motion motion_;                  // its twist_rate holds what remains at zero qacc
   Wrench velocity_load_;           // all but the added mass on the acceleration
   std::vector<mjtNum> jacobian_;   // 6 x nv, wing axes: linear, then angular

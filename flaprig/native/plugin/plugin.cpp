@@ -7,16 +7,15 @@
 
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <string>
 
-#include "instance.hpp"
+#include "registry.hpp"
 
 namespace flaprig {
 namespace {
 
 constexpr int kMessage = 900;
-
-Instance* instance_of(mjData* d, int id) { return reinterpret_cast<Instance*>(d->plugin_data[id]); }
 
 Memory memory_of(const mjModel* m, mjData* d, int id) {
   return {d->plugin_state + m->plugin_stateadr[id]};
@@ -44,12 +43,16 @@ bool guarded(const mjModel* m, int id, Model model, char* message, Work work) {
   }
 }
 
+// here nothing is allocated yet, so whatever can be refused is refused here
 template <Model model>
 int nstate(const mjModel* m, int id) {
   char message[kMessage];
   int size = 0;
   const bool good = guarded(m, id, model, message, [&] {
-    size = Memory::kSize + state_size(read_specification(model, attributes_of(m, id, model)));
+    require_options(m);
+    const Specification s = read_specification(model, attributes_of(m, id, model));
+    place_of(m, id, s.plate);
+    size = Memory::kSize + state_size(s);
   });
   if (!good) mju_error("%s", message);
   return size;
@@ -57,6 +60,21 @@ int nstate(const mjModel* m, int id) {
 
 // 9 for every sensor: at the first call MuJoCo does not know yet what the sensor is attached to
 int nsensordata(const mjModel*, int, int) { return 9; }
+
+bool make_instance(const mjModel* m, const mjData* d, int id, Model model, char* message) {
+  return guarded(m, id, model, message, [&] {
+    registry().put(d, id, std::make_unique<Instance>(m, id, model));
+  });
+}
+
+// an mjData that was unpickled has not been through init
+template <Model model>
+Instance* instance_of(const mjModel* m, const mjData* d, int id) {
+  if (Instance* found = registry().find(d, id)) return found;
+  char message[kMessage];
+  if (!make_instance(m, d, id, model, message)) mju_error("%s", message);
+  return registry().find(d, id);
+}
 
 template <Model model>
 int init(const mjModel* m, mjData* d, int id) {
@@ -66,18 +84,21 @@ int init(const mjModel* m, mjData* d, int id) {
     return -1;
   }
   char message[kMessage];
-  const bool good = guarded(m, id, model, message, [&] {
-    d->plugin_data[id] = reinterpret_cast<uintptr_t>(new Instance(m, id, model));
-  });
-  if (good) return 0;
   d->plugin_data[id] = 0;
+  if (make_instance(m, d, id, model, message)) return 0;
+  // what MuJoCo frees after a -1, whose message would not tell the reason
+  for (int other = 0; other < id; ++other) registry().remove(d, other);
+  mju_free(d->buffer), mju_free(d->arena), mju_free(d);
   mju_error("%s", message);
   return -1;
 }
 
-void destroy(mjData* d, int id) {
-  delete instance_of(d, id);
-  d->plugin_data[id] = 0;
+void destroy(mjData* d, int id) { registry().remove(d, id); }
+
+// between mj_step1 and mj_step2 an instance knows what the state does not
+template <Model model>
+void copy(mjData* to, const mjModel* m, const mjData* from, int id) {
+  instance_of<model>(m, to, id)->copy_stage(*instance_of<model>(m, from, id));
 }
 
 void reset(const mjModel* m, mjtNum* state, void*, int id) {
@@ -93,10 +114,11 @@ void rebuild_mass(const mjModel* m, mjData* d, int id) {
   mj_makeM(m, d);
 }
 
+template <Model model>
 void compute(const mjModel* m, mjData* d, int id, int capability) {
-  Instance* instance = instance_of(d, id);
+  Instance* instance = instance_of<model>(m, d, id);
   if (capability == mjPLUGIN_SENSOR) {
-    instance->sense(m, d, memory_of(m, d, id));
+    instance->sense(m, d, memory_of(m, d, id), true);
   } else {
     rebuild_mass(m, d, id);
     instance->compute(m, d);
@@ -105,16 +127,18 @@ void compute(const mjModel* m, mjData* d, int id, int capability) {
 
 template <Model model>
 void advance(const mjModel* m, mjData* d, int id) {
-  const char* refusal = refused_option(m);
-  if (refusal) mju_error("%s: %s", kModelNames[static_cast<int>(model)], refusal);
+  Instance* instance = instance_of<model>(m, d, id);
   char message[kMessage];
-  const bool good = guarded(m, id, model, message,
-                            [&] { instance_of(d, id)->advance(m, d, memory_of(m, d, id)); });
+  const bool good = guarded(m, id, model, message, [&] {
+    require_options(m);
+    instance->advance(m, d, memory_of(m, d, id));
+  });
   if (!good) mju_error("%s", message);
 }
 
+template <Model model>
 void visualize(const mjModel* m, mjData* d, const mjvOption*, mjvScene* scene, int id) {
-  instance_of(d, id)->draw(m, d, scene, memory_of(m, d, id));
+  instance_of<model>(m, d, id)->draw(m, d, scene, memory_of(m, d, id));
 }
 
 template <Model model>
@@ -131,9 +155,10 @@ void add() {
   plugin.init = init<model>;
   plugin.destroy = destroy;
   plugin.reset = reset;
-  plugin.compute = compute;
+  plugin.copy = copy<model>;
+  plugin.compute = compute<model>;
   plugin.advance = advance<model>;
-  plugin.visualize = visualize;
+  plugin.visualize = visualize<model>;
   mjp_registerPlugin(&plugin);
 }
 

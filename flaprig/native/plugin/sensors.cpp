@@ -74,9 +74,11 @@ Wrench Instance::at_site(const mjModel* m, int site, const Wrench& w) const {
   return {turned(w.force), turned(w.torque - cross(vec3(local), w.force))};
 }
 
-void Instance::sense(const mjModel* m, mjData* d, Memory memory) const {
+// all: also the sensors that MuJoCo clips or delays, which it does only after asking itself
+void Instance::sense(const mjModel* m, mjData* d, Memory memory, bool all) const {
   for (int i = 0; i < m->nsensor; ++i) {
     if (m->sensor_type[i] != mjSENS_PLUGIN || m->sensor_plugin[i] != id_) continue;
+    if (!all && (m->sensor_cutoff[i] > 0 || m->sensor_history[2 * i] > 0)) continue;
     mjtNum* out = d->sensordata + m->sensor_adr[i];
     if (m->sensor_objtype[i] == mjOBJ_SITE) {
       put(at_site(m, m->sensor_objid[i], get(memory.mount())), out);
