@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from flaprig import _checks as check
 
-
 # fastest wind that the native code accepts [m/s]
 MOST_WIND = 1000.0
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,11 +61,16 @@ class Air:
         """Loads along the motion, whose instants are step seconds apart.
 
         Works in slices, so that Ctrl-C is heard and progress is told.
+
+        Raises:
+            ValueError: a motion without instants.
         """
+        if len(motion) == 0:
+            raise ValueError("Air.run: motion must have at least one instant, got 0")
         slices = 100
         edges = np.linspace(0, len(motion), min(slices, len(motion)) + 1).astype(int)
         parts = []
-        for start, end in zip(edges[:-1], edges[1:], strict=True):
+        for start, end in pairwise(edges):
             m = motion.part(slice(start, end))
             parts.append(
                 self.native.run(self.state, step, m.position, m.rotation, m.twist, m.twist_rate)
