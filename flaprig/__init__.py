@@ -3,6 +3,7 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from flaprig.aero.batch import simulate_batch
 from flaprig.aero.coefficients import DICKINSON_1999, LEE_2016, Coefficients
 from flaprig.aero.models import UVLM, QuasiSteady
 from flaprig.aero.result import Result
@@ -36,6 +37,7 @@ __all__ = [
     "TwinRun",
     "Wing",
     "simulate",
+    "simulate_batch",
 ]
 
 # what needs MuJoCo, by the room it is in: imported when it is asked for

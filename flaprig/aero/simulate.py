@@ -17,6 +17,9 @@ from flaprig.wing import Wing
 
 Array = NDArray[np.float64]
 
+# smallest half sweep amplitude [rad]: the coefficients divide by its square
+LEAST_AMPLITUDE = 1e-6
+
 
 def mean_speed(wing: Wing, stroke: Stroke) -> float:
     """Mean speed at R2 over a cycle, 4 f phi0 R2 with phi0 the half amplitude, in [m/s]."""
@@ -56,15 +59,43 @@ def simulate(
     check.whole("simulate", "cycles", cycles, 1, 1000)
     check.whole("simulate", "substeps", substeps, 1, 1000)
     steps = model.steps_per_cycle * substeps
-    time = np.arange(cycles * steps) / (steps * stroke.frequency)
-    motion = stroke.motion(time)
+    motion = prescribed(stroke, cycles, steps)
     rigid = RigidMotion.from_stroke(motion)
     air = Air(wing, fluid, model, stroke.frequency, stroke.sweep_amplitude)
     loads = air.run(rigid, 1.0 / (steps * stroke.frequency), progress)
-    _require_finite(loads, time)
+    return result_of(wing, stroke, fluid, motion, rigid, loads, cycles)
+
+
+def prescribed(stroke: Stroke, cycles: int, steps: int) -> Motion:
+    """The stroke at equal steps from time 0.
+
+    Raises:
+        ValueError: a stroke without sweep, by whose speed the coefficients divide.
+    """
+    if not stroke.sweep_amplitude >= LEAST_AMPLITUDE:
+        allowed = f"at least {LEAST_AMPLITUDE} rad (coefficients divide by the sweep's speed)"
+        raise check.fail("simulate", "stroke.sweep_amplitude", allowed, stroke.sweep_amplitude)
+    return stroke.motion(np.arange(cycles * steps) / (steps * stroke.frequency))
+
+
+def result_of(
+    wing: Wing,
+    stroke: Stroke,
+    fluid: Fluid,
+    motion: Motion,
+    rigid: RigidMotion,
+    loads: WingLoads,
+    cycles: int,
+) -> Result:
+    """What the loads along a prescribed stroke mean.
+
+    Raises:
+        FloatingPointError: the loads are not finite; says from which time on.
+    """
+    _require_finite(loads, motion.time)
     histories = stroke_histories(motion, rigid, loads)
     force = reference_force(wing, stroke, fluid)
-    return Result(histories, force, steps, averaged_cycles(cycles))
+    return Result(histories, force, motion.time.size // cycles, averaged_cycles(cycles))
 
 
 def _require_finite(loads: WingLoads, time: Array) -> None:

@@ -48,7 +48,7 @@ class Air {
   // loads at this motion; reads the state, changes nothing
   virtual Loads loads(const double* state, const Motion& motion) const = 0;
   // takes the memory over a step dt that began at this motion
-  virtual void advance(double* state, const Motion& motion, double dt) = 0;
+  virtual void advance(double* state, const Motion& motion, double dt) const = 0;
   // symmetric 3 x 3 mass on (v_z, w_x, w_y); constant in the wing frame
   const AddedMass& added_mass() const { return added_mass_; }
   Vec3 wind_w() const { return wind_w_; }

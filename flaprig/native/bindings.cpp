@@ -73,6 +73,23 @@ class PyAir {
     return nb::make_tuple(a, b, c);
   }
 
+  // `count` motions one after the other in the arrays; states (count * state_size)
+  nb::tuple run_batch(State states, int count, double dt, In position, In rotation, In twist,
+                      In twist_rate, int threads) {
+    MotionArrays motions = arrays(dt, position, rotation, twist, twist_rate);
+    const size_t n = motions.n;
+    require(count > 0 && n % count == 0, "the instants must be a whole number per motion");
+    require(states.size() == size_t(count) * state_size(), "states have the wrong length");
+    motions.n /= count;
+    double *base, *extra, *added;
+    Out a = new_array({n, 6}, &base), b = new_array({n, 6}, &extra), c = new_array({n, 6}, &added);
+    {
+      nb::gil_scoped_release release;
+      drive_batch(*air_, count, states.data(), motions, base, extra, added, threads);
+    }
+    return nb::make_tuple(a, b, c);
+  }
+
   // bound circulation (chordwise, spanwise) at one motion
   Out circulation(State state, In position, In rotation, In twist, In twist_rate) {
     check(state);
@@ -199,6 +216,9 @@ NB_MODULE(_native, m) {
       .def_prop_ro("lattice", &PyAir::lattice, nb::rv_policy::move)
       .def("run", &PyAir::run, nb::arg("state"), nb::arg("dt"), nb::arg("position"),
            nb::arg("rotation"), nb::arg("twist"), nb::arg("twist_rate"))
+      .def("run_batch", &PyAir::run_batch, nb::arg("states"), nb::arg("count"), nb::arg("dt"),
+           nb::arg("position"), nb::arg("rotation"), nb::arg("twist"), nb::arg("twist_rate"),
+           nb::arg("threads") = 1)
       .def("circulation", &PyAir::circulation)
       .def("bound_circulation", &PyAir::bound_circulation)
       .def("wake", &PyAir::wake)

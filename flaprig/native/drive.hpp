@@ -19,7 +19,12 @@ Motion motion_at(const MotionArrays& motion, int i);
 
 // for each instant: the loads, then the step that begins there. Output n x 6 each (force, torque
 // in wing axes); added: the added mass's share.
-void drive(Air& air, double* state, const MotionArrays& motion, double* base, double* extra,
+void drive(const Air& air, double* state, const MotionArrays& motion, double* base, double* extra,
            double* added);
+
+// many wings of one kind, each in fluid of its own: `count` motions of n instants one after the
+// other in the arrays, and as many states and outputs. The result does not depend on threads.
+void drive_batch(const Air& air, int count, double* states, const MotionArrays& motions,
+                 double* base, double* extra, double* added, int threads);
 
 }  // namespace flaprig

@@ -17,7 +17,7 @@ class QuasiSteady : public Air {
 
   int state_size() const override { return 0; }
   Loads loads(const double* state, const Motion& motion) const override;
-  void advance(double*, const Motion&, double) override {}
+  void advance(double*, const Motion&, double) const override {}
   LiftDrag coefficients(double alpha) const;
 
  private:

@@ -126,13 +126,13 @@ void Uvlm::suction_load(const double* g, Wrench& load) const {
   }
 }
 
-void Uvlm::advance(double* state, const Motion& motion, double dt) {
+void Uvlm::advance(double* state, const Motion& motion, double dt) const {
   Wake w = wake(state);
   // half a step early is nearer than half a step late
   if (w.started() == 0 || w.age() >= settings_.wake_step - 0.5 * dt) tick(state, motion);
   w.age() += dt;
 }
 
-void Uvlm::tick(double* state, const Motion& motion) { Tick(*this, wake(state), motion).run(); }
+void Uvlm::tick(double* state, const Motion& motion) const { Tick(*this, wake(state), motion).run(); }
 
 }  // namespace flaprig

@@ -16,10 +16,10 @@ class Uvlm : public Air {
 
   int state_size() const override;
   Loads loads(const double* state, const Motion& motion) const override;
-  void advance(double* state, const Motion& motion, double dt) override;
+  void advance(double* state, const Motion& motion, double dt) const override;
 
   // one step of the wake at this motion, whatever its age
-  void tick(double* state, const Motion& motion);
+  void tick(double* state, const Motion& motion) const;
   Wake wake(double* state) const;
   const Lattice& lattice() const { return lattice_; }
   const UvlmSettings& settings() const { return settings_; }

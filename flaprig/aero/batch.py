@@ -1,0 +1,100 @@
+"""Many strokes at once, on all cores: the same loads as one by one, bit for bit."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from flaprig import _checks as check
+from flaprig.aero.air import WingLoads
+from flaprig.aero.models import UVLM, AirModel
+from flaprig.aero.result import Result
+from flaprig.aero.rigid_motion import RigidMotion
+from flaprig.aero.simulate import prescribed, result_of
+from flaprig.fluid import WATER, Fluid
+from flaprig.native import _native
+from flaprig.strokes.stroke import Stroke
+from flaprig.wing import Wing
+
+Array = NDArray[np.float64]
+
+
+def simulate_batch(
+    wing: Wing,
+    strokes: Sequence[Stroke],
+    model: AirModel | None = None,
+    fluid: Fluid = WATER,
+    cycles: int = 5,
+    threads: int | None = None,
+) -> list[Result]:
+    """Loads on one wing along each of many strokes, as `simulate` gives them.
+
+    Args:
+        wing: the wing.
+        strokes: the strokes; those of one frequency run side by side.
+        model: the air; UVLM() when None. Its own `threads` should stay 1 here.
+        fluid: the fluid.
+        cycles: number of cycles, 1 to 1000.
+        threads: strokes at work at a time; one for each core when None.
+
+    Raises:
+        ValueError: a value out of range.
+        FloatingPointError: the loads of a stroke are not finite.
+    """
+    model = UVLM() if model is None else model
+    check.whole("simulate_batch", "cycles", cycles, 1, 1000)
+    threads = check.whole("simulate_batch", "threads", threads or os.cpu_count() or 1, 1, 1024)
+    results: dict[int, Result] = {}
+    for members in _alike(wing, strokes, model, fluid):
+        chosen = [strokes[k] for k in members]
+        group = _run(wing, chosen, model, fluid, cycles, threads)
+        results |= dict(zip(members, group, strict=True))
+    return [results[k] for k in range(len(strokes))]
+
+
+def _alike(
+    wing: Wing, strokes: Sequence[Stroke], model: AirModel, fluid: Fluid
+) -> list[list[int]]:
+    """Indices of the strokes that can share one native model."""
+    groups: dict[tuple[tuple[str, str], ...], list[int]] = {}
+    for k, stroke in enumerate(strokes):
+        settings = model.attributes(wing, fluid, stroke.frequency, stroke.sweep_amplitude)
+        groups.setdefault(tuple(settings.items()), []).append(k)
+    return list(groups.values())
+
+
+def _run(
+    wing: Wing, strokes: list[Stroke], model: AirModel, fluid: Fluid, cycles: int, threads: int
+) -> list[Result]:
+    first, steps = strokes[0], model.steps_per_cycle
+    motions = [prescribed(stroke, cycles, steps) for stroke in strokes]
+    rigid = [RigidMotion.from_stroke(motion) for motion in motions]
+    settings = model.attributes(wing, fluid, first.frequency, first.sweep_amplitude)
+    loads = batch_loads(model, settings, rigid, 1.0 / (steps * first.frequency), threads)
+    return [
+        result_of(wing, stroke, fluid, motion, moved, load, cycles)
+        for stroke, motion, moved, load in zip(strokes, motions, rigid, loads, strict=True)
+    ]
+
+
+def batch_loads(
+    model: AirModel,
+    settings: dict[str, str],
+    motions: Sequence[RigidMotion],
+    step: float,
+    threads: int,
+) -> list[WingLoads]:
+    """Loads along motions of equal length, each beginning in still fluid of its own."""
+    native = _native.Air(model.plugin, settings)
+    count, length = len(motions), len(motions[0])
+    states = np.zeros(count * native.state_size)
+    stacked = [
+        np.concatenate([getattr(m, name) for m in motions])
+        for name in ("position", "rotation", "twist", "twist_rate")
+    ]
+    parts = native.run_batch(states, count, step, *stacked, threads)
+    cut = [slice(k * length, (k + 1) * length) for k in range(count)]
+    return [WingLoads(*(part[piece] for part in parts)) for piece in cut]
