@@ -95,6 +95,6 @@ def batch_loads(
         np.concatenate([getattr(m, name) for m in motions])
         for name in ("position", "rotation", "twist", "twist_rate")
     ]
-    parts = native.run_batch(states, count, step, *stacked, threads)
+    parts = native.run_batch(states, count, step, *stacked, threads=threads)
     cut = [slice(k * length, (k + 1) * length) for k in range(count)]
     return [WingLoads(*(part[piece] for part in parts)) for piece in cut]
