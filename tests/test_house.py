@@ -20,7 +20,8 @@ FLOORS = (
     ("native", "aero"),
     ("limits",),
     (
-        *("motors", "motor_histories", "plate", "rig", "energy"),
+        *("motors", "motor_histories", "motor_record", "plate", "rig", "energy"),
+        *("servo_link", "set_points", "feedforward"),
         *("twin_log", "twin_run", "twin", "feasibility"),
     ),
     ("tasks",),
@@ -32,6 +33,7 @@ FLOOR = {room: level for level, rooms in enumerate(FLOORS) for room in rooms}
 # third parties and the only places that may import them, as prefixes of the path
 ONLY_IN = {
     "ruckig": ("flaprig/limits/ruckig_filter.py",),
+    "clarabel": ("flaprig/limits/programme.py",),
     "gymnasium": ("flaprig/envs",),
     "dm_control": ("flaprig/tasks", "flaprig/envs"),
     "torch": ("training",),

@@ -91,10 +91,15 @@ def batch_loads(
     native = _native.Air(model.plugin, settings)
     count, length = len(motions), len(motions[0])
     states = np.zeros(count * native.state_size)
-    stacked = [
-        np.concatenate([getattr(m, name) for m in motions])
-        for name in ("position", "rotation", "twist", "twist_rate")
-    ]
-    parts = native.run_batch(states, count, step, *stacked, threads=threads)
+    parts = native.run_batch(
+        states,
+        count,
+        step,
+        np.concatenate([m.position for m in motions]),
+        np.concatenate([m.rotation for m in motions]),
+        np.concatenate([m.twist for m in motions]),
+        np.concatenate([m.twist_rate for m in motions]),
+        threads,
+    )
     cut = [slice(k * length, (k + 1) * length) for k in range(count)]
     return [WingLoads(*(part[piece] for part in parts)) for piece in cut]
