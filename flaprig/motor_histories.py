@@ -12,10 +12,15 @@ Array = NDArray[np.float64]
 # units by the last words of a history's name, the longest first
 _UNITS = {
     "rate_command": "rad_per_s",
+    "rate_set_point": "rad_per_s",
+    "feedforward": "Nm",
+    "demand": "Nm",
+    "voltage": "V",
     "motor_torque": "Nm",
     "motor_power": "W",
     "current": "A",
     "temperature": "degC",
+    "set_point": "rad",
     "command": "rad",
     "time": "s",
     "sweep": "rad",
@@ -31,10 +36,21 @@ class MotorHistories:
         time: beginning of the step [s].
         sweep: angle reached at that time [rad].
         pitch: the same [rad].
-        sweep_command: angle asked for at that time [rad].
+        sweep_command: angle that it should have at that time, within the limits [rad].
         pitch_command: the same [rad].
-        sweep_rate_command: rate asked for at the step's end [rad/s].
+        sweep_rate_command: rate that it should have at the step's end [rad/s].
         pitch_rate_command: the same [rad/s].
+        sweep_set_point: angle that the servo was told, late and rounded as its link is [rad].
+        pitch_set_point: the same [rad].
+        sweep_rate_set_point: rate that the servo was told [rad/s].
+        pitch_rate_set_point: the same [rad/s].
+        sweep_feedforward: torque that the servo was told [N m].
+        pitch_feedforward: the same [N m].
+        sweep_demand: torque that its controller asks for; beyond the servo's limits less comes
+            of it [N m].
+        pitch_demand: the same [N m].
+        sweep_voltage: that its controller asks for, the supply's is the most there is [V].
+        pitch_voltage: the same [V].
         sweep_motor_torque: of the motor on its rotor, seen at the horn, during the step [N m].
         pitch_motor_torque: the same [N m].
         sweep_motor_power: mechanical, torque times the step's mean rate [W].
@@ -53,6 +69,16 @@ class MotorHistories:
     pitch_command: Array
     sweep_rate_command: Array
     pitch_rate_command: Array
+    sweep_set_point: Array
+    pitch_set_point: Array
+    sweep_rate_set_point: Array
+    pitch_rate_set_point: Array
+    sweep_feedforward: Array
+    pitch_feedforward: Array
+    sweep_demand: Array
+    pitch_demand: Array
+    sweep_voltage: Array
+    pitch_voltage: Array
     sweep_motor_torque: Array
     pitch_motor_torque: Array
     sweep_motor_power: Array

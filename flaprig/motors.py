@@ -37,6 +37,8 @@ class Motor:
         stiffness: proportional gain of the controller in [N m/rad].
         damping: derivative gain of the controller in [N m s/rad].
         mass: of the whole servo in [kg].
+        slew_rate: at which the controller moves its aim to the angle it is told, in [rad/s], as the
+            profile velocity of a DYNAMIXEL does; 0: at once.
 
     Raises:
         ValueError: a value that is not a positive finite number, a continuous torque above the
@@ -54,6 +56,7 @@ class Motor:
     stiffness: float
     damping: float
     mass: float
+    slew_rate: float = 0.0
 
     def __post_init__(self) -> None:
         owner = "Motor"
@@ -118,7 +121,10 @@ class Motor:
                 self.ambient_temperature,
             ],
             # kp, ki, kd, slew rate, integrator limit, voltage limit
-            "controller": [self.stiffness, 0.0, self.damping, 0.0, 0.0, self.voltage],
+            "controller": [
+                *(self.stiffness, 0.0, self.damping),
+                *(self.slew_rate, 0.0, self.voltage),
+            ],
         }
 
 
@@ -141,10 +147,10 @@ class Motors:
 
 
 def _checked(name: str, value: float) -> float:
-    """The value as a float; temperatures may be negative, the rotor inertia zero."""
+    """The value as a float; temperatures may be negative, rotor inertia and slew rate zero."""
     if name in ("temperature_limit", "ambient_temperature"):
         return check.in_range("Motor", name, value, -100.0, 1000.0, "degC")
-    if name == "rotor_inertia" and value == 0.0:
+    if name in ("rotor_inertia", "slew_rate") and value == 0.0:
         return 0.0
     return check.positive("Motor", name, value)
 

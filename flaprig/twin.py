@@ -1,8 +1,9 @@
 """The digital twin: the rig's servos follow a stroke in MuJoCo, and the fluid answers.
 
-Each servo gets the stroke's position at the beginning of a step and the stroke's rate at its end:
-implicitfast takes position forces at the old state and rate forces at the new one, so a motor that
-follows perfectly is asked for nothing, whatever the time step.
+The stroke goes onto the joints' limits, through Ruckig from rest, and over the link to the servos.
+Each servo gets the angle of a step's beginning and the rate of its end: implicitfast takes position
+forces at the old state and rate forces at the new one, so a motor that follows perfectly is asked
+for nothing, whatever the time step.
 """
 
 from __future__ import annotations
@@ -15,12 +16,17 @@ from numpy.typing import NDArray
 
 from flaprig import _checks as check
 from flaprig.aero.air import Progress
+from flaprig.feedforward import needed_torques
+from flaprig.limits import Limits
+from flaprig.motor_record import aim_address
 from flaprig.rig import Axis, Rig, controls, coordinates
+from flaprig.servo_link import PERFECT, ServoLink
+from flaprig.set_points import Own, SetPoints, check_stops, own_limits, set_points
 from flaprig.strokes.stroke import Motion, Stroke
 from flaprig.twin_log import drive
 from flaprig.twin_run import TwinRun, gather
 
-__all__ = ["Twin", "TwinRun"]
+__all__ = ["Own", "ServoLink", "Twin", "TwinRun"]
 
 Array = NDArray[np.float64]
 
@@ -44,8 +50,14 @@ class Twin:
         rig: the rig; the frequency that its wake is set for is replaced by the stroke's.
         time_step: of MuJoCo in [s], 1e-6 to 0.02. A run takes the nearest step that divides the
             cycle, and at least one step for each step of the wake; see TwinRun.time_step.
-        feedforward: whether the servos are also given the torque that the stroke needs in fluid
-            without a wake. Off: a servo of the shop has no model of the water.
+        feedforward: whether the servos are also given the torque that the motion needs, by a
+            quasi-steady model of the air (docs/servo_lag.md). Without it they are two to eight
+            times as far off, up to 0.2 deg at 0.2 Hz; a servo of the shop has no such model.
+        limits: what the joints can do. A stroke beyond them is replaced by the nearest one within,
+            and every run begins with a jerk-limited start (its time steps are then 1e-5 s or more).
+            Own.RIG: the rig's own, from its servos, wing, fluid and stops. None: the stroke as it
+            is, all at once.
+        link: what the servos hear of their set points.
 
     Raises:
         ValueError: an attribute of the wrong type or out of its range.
@@ -53,7 +65,9 @@ class Twin:
 
     rig: Rig
     time_step: float = TIME_STEP
-    feedforward: bool = False
+    feedforward: bool = True
+    limits: Limits | Own | None = Own.RIG
+    link: ServoLink = PERFECT
 
     def __post_init__(self) -> None:
         if not isinstance(self.rig, Rig):
@@ -62,20 +76,25 @@ class Twin:
         object.__setattr__(self, "time_step", step)
         if not isinstance(self.feedforward, bool):
             raise check.fail("Twin", "feedforward", "True or False", self.feedforward)
+        if not isinstance(self.limits, Limits | Own | None):
+            raise check.fail("Twin", "limits", "a Limits, Own.RIG or None", self.limits)
+        if not isinstance(self.link, ServoLink):
+            raise check.fail("Twin", "link", "a ServoLink", self.link)
 
     def run(self, stroke: Stroke, cycles: int = 3, progress: Progress | None = None) -> TwinRun:
         """Let the servos follow a stroke, from standstill at its first posture in still fluid.
 
-        A rig is put in place before it starts, and nothing moves then: a stroke that begins with a
-        rate is caught up with within the first tenths of a second, as by the real servo.
+        The stroke's time begins with the run: within limits it is caught up with in the first
+        tenths of a second (TwinRun.joined_at), and no cycle is added for that.
 
         Args:
-            stroke: what the servos are asked for.
+            stroke: what the rig is asked for.
             cycles: number of cycles, 1 to 1000; means leave out the first two where there are more.
             progress: called with the fraction done.
 
         Raises:
-            ValueError: a stroke that leaves the joints' range, or a number out of range.
+            ValueError: a number out of range, or set points that leave the joints' stops.
+            RuntimeError: the limits leave no way onto the stroke.
             FloatingPointError: MuJoCo gave up; says when.
             ImportError: the plugin library is missing or does not fit MuJoCo.
         """
@@ -86,14 +105,46 @@ class Twin:
             allowed = f"at most {MOST_STEPS // steps} with {steps} steps in each"
             raise check.fail("Twin.run", "cycles", allowed, cycles)
         model = self.compile(stroke)
-        motion = stroke.motion(np.arange(cycles * steps + 1) / (steps * stroke.frequency))
-        _check_range(model, motion)
-        control = _controls(model, motion)
-        if self.feedforward:
-            control[:, controls(model).torque] = _still_fluid_torques(model, motion)
-        log = drive(model, _at_rest(model, motion), control, progress)
+        points, control = self.commands(model, stroke, cycles)
+        log = drive(model, at_rest(model, points.motion), control, progress)
         rig = self.rig.with_(frequency=stroke.frequency)
-        return gather(rig, model, stroke, motion, log, steps, cycles)
+        return gather(rig, model, stroke, points, control, log, cycles)
+
+    def commands(
+        self, model: mujoco.MjModel, stroke: Stroke, cycles: int
+    ) -> tuple[SetPoints, Array]:
+        """What the servos are to do, and `data.ctrl` of every step. Shape of the latter (n, nu).
+
+        Args:
+            model: as `compile` makes it for the stroke.
+            stroke: what the rig is asked for.
+            cycles: number of cycles.
+
+        Raises:
+            ValueError: set points that leave the joints' stops, or limits that cannot be used.
+            RuntimeError: the limits leave no way onto the stroke.
+        """
+        steps, time_step = self.steps_per_cycle(stroke), model.opt.timestep
+        limits = own_limits(self.rig, model) if isinstance(self.limits, Own) else self.limits
+        points = set_points(stroke, limits, time_step, cycles * steps)
+        check_stops(model, points.motion)
+        torque = self._torques(points, steps) if self.feedforward else None
+        return points, _controls(model, points.motion, self.link, torque)
+
+    def _torques(self, points: SetPoints, steps: int) -> Array:
+        """Feedforward of every step; the cycles after the start share one. Shape (n, 2)."""
+        motion = points.motion
+        step = np.arange(motion.time.size - 1)
+        first = int(np.searchsorted(motion.time, points.joined_at)) + 1
+        once = min(first + steps, step.size)
+        part = Motion(*(getattr(motion, name)[: once + 1] for name in Motion.__dataclass_fields__))
+        torque = needed_torques(self.rig, part)
+        if not self.link.velocity:
+            # the servo brakes on its whole rate then
+            motors = self.rig.motors
+            brakes = np.array([motors.sweep.damping, motors.pitch.damping])
+            torque += brakes * np.column_stack([part.sweep_rate, part.pitch_rate])[1:]
+        return torque[np.where(step < once, step, first + (step - first) % steps)]
 
     def steps_per_cycle(self, stroke: Stroke) -> int:
         """MuJoCo steps in one cycle of the stroke: a whole number, no fewer than the wake's."""
@@ -120,48 +171,30 @@ def _check_stroke(stroke: Stroke) -> None:
         raise check.fail(owner, "stroke.sweep_amplitude", allowed, stroke.sweep_amplitude)
 
 
-def _check_range(model: mujoco.MjModel, motion: Motion) -> None:
-    """The stroke must stay inside the joints' stops."""
-    for axis in Axis:
-        joint, angle = model.joint(axis), getattr(motion, axis)
-        low, high = joint.range if joint.limited[0] else (-np.inf, np.inf)
-        worst = float(angle[np.argmax(np.maximum(low - angle, angle - high))])
-        if not low <= worst <= high:
-            allowed = (
-                f"within the joint's range, {low:.4f} to {high:.4f} rad "
-                f"({np.degrees(low):.0f} to {np.degrees(high):.0f} deg)"
-            )
-            raise check.fail("Twin.run", f"stroke's {axis}", allowed, round(worst, 4))
-
-
-def _controls(model: mujoco.MjModel, motion: Motion) -> Array:
-    """Set points of every step. Shape (n, nu)."""
-    where = controls(model)
-    table = np.zeros((motion.time.size - 1, model.nu))
-    table[:, where.position] = np.column_stack([motion.sweep, motion.pitch])[:-1]
-    table[:, where.velocity] = np.column_stack([motion.sweep_rate, motion.pitch_rate])[1:]
-    return table
-
-
-def _at_rest(model: mujoco.MjModel, motion: Motion) -> mujoco.MjData:
+def at_rest(model: mujoco.MjModel, motion: Motion) -> mujoco.MjData:
     """The rig standing at the motion's first posture, in fluid without a wake."""
     data = mujoco.MjData(model)
-    data.qpos[coordinates(model)[0]] = motion.sweep[0], motion.pitch[0]
+    posture = motion.sweep[0], motion.pitch[0]
+    data.qpos[coordinates(model)[0]] = posture
+    for axis, angle in zip(Axis, posture, strict=True):
+        aim = aim_address(model, axis)
+        if aim is not None:
+            data.act[aim] = angle
     return data
 
 
-def _still_fluid_torques(model: mujoco.MjModel, motion: Motion) -> Array:
-    """Inverse dynamics of the motion without a wake, in [N m]. Shape (n, 2).
-
-    mj_inverse uses the M that holds the fluid's added mass already: nothing is to be added.
-    """
-    data = mujoco.MjData(model)
-    angle, rate = coordinates(model)
-    table = np.empty((motion.time.size - 1, 2))
-    for k in range(len(table)):
-        data.qpos[angle] = motion.sweep[k], motion.pitch[k]
-        data.qvel[rate] = motion.sweep_rate[k], motion.pitch_rate[k]
-        data.qacc[rate] = motion.sweep_acceleration[k], motion.pitch_acceleration[k]
-        mujoco.mj_inverse(model, data)
-        table[k] = data.qfrc_inverse[rate]
+def _controls(
+    model: mujoco.MjModel, motion: Motion, link: ServoLink, torque: Array | None
+) -> Array:
+    """Inputs of every step, as the servos hear them. Shape (n, nu)."""
+    where = controls(model)
+    heard = link.heard(motion.time.size - 1, model.opt.timestep)
+    table = np.zeros((heard.size, model.nu))
+    angles = np.column_stack([motion.sweep, motion.pitch])[heard]
+    table[:, where.position] = link.rounded(angles)
+    if link.velocity:
+        rates = np.column_stack([motion.sweep_rate, motion.pitch_rate])
+        table[:, where.velocity] = rates[heard + 1]
+    if torque is not None:
+        table[:, where.torque] = torque[heard]
     return table

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from math import ceil
 
 import mujoco
 import numpy as np
@@ -15,12 +16,19 @@ from flaprig.aero.rigid_motion import wing_axes
 from flaprig.aero.simulate import reference_force
 from flaprig.energy import EnergyBalance, solid_energy
 from flaprig.files import write_table
+from flaprig.limits import JointProjection, Projection
 from flaprig.motor_histories import MotorHistories
+from flaprig.motor_record import motor_histories
+from flaprig.motors import Motors
 from flaprig.rig import Axis, Rig, Sensor, coordinates, readings
+from flaprig.set_points import SetPoints
 from flaprig.strokes.stroke import Motion, Stroke
 from flaprig.twin_log import StepLog
 
 Array = NDArray[np.float64]
+
+# a commanded first harmonic below this [rad] has no lag
+LEAST_SWING = 1e-9
 
 # parts of a six-axis wrench, with their units
 _PARTS = ("force_x_N", "force_y_N", "force_z_N", "torque_x_Nm", "torque_y_Nm", "torque_z_Nm")
@@ -34,6 +42,10 @@ class TwinRun:
         result: loads and coefficients of the motion really made; the coefficients divide by the
             reference force of the stroke asked for.
         motors: commands, torques, currents and temperatures of the servos.
+        servos: the two servos themselves.
+        commanded: motion that the servos were to make, within the limits. Arrays of shape (n + 1,).
+        projection: what the limits changed of the stroke asked for; None: run without limits.
+        joined_at: when the start from rest had caught up with the stroke in [s].
         energy: balance of every cycle.
         fluid_wrench: of the fluid on the wing, wing frame, about its origin [N, N m]. Shape (n, 6).
         load_cell: of the wing on its mount, in the cell's frame [N, N m]. Shape (n, 6).
@@ -42,16 +54,47 @@ class TwinRun:
 
     result: Result
     motors: MotorHistories
+    servos: Motors
+    commanded: Motion
+    projection: Projection | None
+    joined_at: float
     energy: EnergyBalance
     fluid_wrench: Array
     load_cell: Array
     time_step: float
 
     def tracking_error(self, axis: Axis | str) -> Array:
-        """Angle reached minus angle asked for, in [rad], over the averaged cycles. Shape (m,)."""
+        """Angle reached minus angle commanded, in [rad], over the averaged cycles. Shape (m,)."""
         name = Axis(axis).value
         asked, reached = getattr(self.motors, f"{name}_command"), getattr(self.motors, name)
         return self.result.averaged(reached - asked)
+
+    def lag(self, axis: Axis | str) -> float:
+        """Time by which the reached angle's first harmonic is behind the commanded one's in [s].
+
+        Over the averaged cycles; 0 where nothing is commanded.
+        """
+        name = Axis(axis).value
+        first, last = self.result.averaged_cycles
+        asked, reached = (
+            np.fft.rfft(self.result.averaged(getattr(self.motors, full)))[last - first + 1]
+            for full in (f"{name}_command", name)
+        )
+        if abs(asked) < LEAST_SWING * self.result.steps_per_cycle:
+            return 0.0
+        period = self.result.steps_per_cycle * self.time_step
+        return float(-np.angle(reached / asked) / (2.0 * np.pi) * period)
+
+    def saturated(self, axis: Axis | str) -> NDArray[np.bool_]:
+        """Steps in which a servo's torque, current or voltage was at its limit. Shape (n,).
+
+        The controller asked for more than the stall torque, which stands for the current limit, or
+        for more volts than the supply has at that speed.
+        """
+        name = Axis(axis).value
+        motor = getattr(self.servos, name)
+        voltage, demand = (getattr(self.motors, f"{name}_{part}") for part in ("voltage", "demand"))
+        return np.asarray((np.abs(voltage) > motor.voltage) | (np.abs(demand) > motor.stall_torque))
 
     def columns(self) -> dict[str, Array]:
         """All histories by name with unit: those of result and motors, both wrenches."""
@@ -72,6 +115,7 @@ class TwinRun:
             "fluid_work_J": self.energy.fluid_work.tolist(),
             "energy_residual_relative": self.energy.relative_residual.tolist(),
             "time_step_s": self.time_step,
+            "joined_at_s": self.joined_at,
         }
         return {**self.result.summary(), **servos, **balance}
 
@@ -82,7 +126,12 @@ class TwinRun:
             return np.asarray(self.result.averaged(getattr(self.motors, f"{axis}_{name}")))
 
         torque, power = averaged("motor_torque"), averaged("motor_power")
+        changed = getattr(self.projection, axis) if self.projection else JointProjection()
         numbers = {
+            f"rms_{axis}_projection_rad": changed.distance_rms,
+            f"max_{axis}_projection_rad": changed.distance_max,
+            f"{axis}_lag_s": self.lag(axis),
+            f"{axis}_saturated_fraction": self.saturated(axis).mean(),
             f"rms_{axis}_tracking_error_rad": np.sqrt(np.mean(error**2)),
             f"peak_{axis}_tracking_error_rad": np.abs(error).max(),
             f"peak_{axis}_motor_torque_Nm": np.abs(torque).max(),
@@ -107,22 +156,38 @@ class TwinRun:
         write_table("TwinRun.save", path, self.columns(), self.summary())
 
 
+def settled_cycles(cycles: int, joined: float) -> tuple[int, int]:
+    """First and last cycle of the means: the usual ones, less those that hold the start.
+
+    Args:
+        cycles: of the run.
+        joined: when the stroke was caught up with, in cycles.
+    """
+    first, last = averaged_cycles(cycles)
+    return min(max(first, ceil(joined) + 1), last), last
+
+
 def gather(
     rig: Rig,
     model: mujoco.MjModel,
     stroke: Stroke,
-    motion: Motion,
+    points: SetPoints,
+    control: Array,
     log: StepLog,
-    steps_per_cycle: int,
     cycles: int,
 ) -> TwinRun:
     """A run's raw log as histories, coefficients and balance."""
     sensors = {name: log.sensors[:, part] for name, part in readings(model).items()}
     force = reference_force(rig.wing, stroke, rig.fluid)
-    histories = _histories(model, motion, log, sensors[Sensor.AERO])
+    histories = _histories(model, points.motion, log, sensors[Sensor.AERO])
+    averaged = settled_cycles(cycles, points.joined_at * stroke.frequency)
     return TwinRun(
-        result=Result(histories, force, steps_per_cycle, averaged_cycles(cycles)),
-        motors=_motor_histories(rig, model, motion, log),
+        result=Result(histories, force, len(control) // cycles, averaged),
+        motors=motor_histories(rig, model, points.motion, control, log),
+        servos=rig.motors,
+        commanded=points.motion,
+        projection=points.projection,
+        joined_at=points.joined_at,
         energy=_balance(model, log, histories.power, cycles),
         fluid_wrench=sensors[Sensor.AERO][:, :6],
         load_cell=sensors[Sensor.LOAD_CELL],
@@ -149,28 +214,6 @@ def _histories(model: mujoco.MjModel, motion: Motion, log: StepLog, aero: Array)
         pitch_torque=-aero[:, 4],
         power=aero[:, 8],
     )
-
-
-def _motor_histories(
-    rig: Rig, model: mujoco.MjModel, motion: Motion, log: StepLog
-) -> MotorHistories:
-    angle, rate = coordinates(model)
-    found: dict[str, Array] = {"time": motion.time[:-1]}
-    for i, axis in enumerate(Axis):
-        motor = getattr(rig.motors, axis)
-        torque = log.generalized_force[:, rate[i]]
-        warmth = log.activation[:, model.actuator(axis).actadr[0]]
-        found |= {
-            f"{axis}": log.qpos[:-1, angle[i]],
-            f"{axis}_command": getattr(motion, axis)[:-1],
-            f"{axis}_rate_command": getattr(motion, f"{axis}_rate")[1:],
-            f"{axis}_motor_torque": torque,
-            f"{axis}_motor_power": torque * log.mean_qvel[:, rate[i]],
-            # the rotor's inertia is in M, so this is the torque of the current
-            f"{axis}_current": torque / motor.torque_constant,
-            f"{axis}_temperature": motor.ambient_temperature + warmth,
-        }
-    return MotorHistories(**found)
 
 
 def _balance(model: mujoco.MjModel, log: StepLog, power: Array, cycles: int) -> EnergyBalance:

@@ -22,7 +22,9 @@ FLOORS = (
     (
         *("motors", "motor_histories", "motor_record", "plate", "rig", "energy"),
         *("servo_link", "set_points", "feedforward"),
-        *("twin_log", "twin_run", "twin", "feasibility"),
+        *("twin_log", "twin_run", "twin"),
+        *("verdict", "motion_verdicts", "servo_verdicts", "feasibility", "catalogue"),
+        *("scaling", "servo_choice"),
     ),
     ("tasks",),
     ("envs",),

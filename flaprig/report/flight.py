@@ -8,9 +8,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from flaprig.rig import controls, coordinates
 from flaprig.strokes.stroke import Stroke
-from flaprig.twin import Twin
+from flaprig.twin import Twin, at_rest
+
+# cycles of commands; the last one, long after the start, is repeated
+CYCLES = 5
 
 
 class Flight:
@@ -27,24 +29,23 @@ class Flight:
         Raises:
             ImportError: the plugin library is missing or does not fit MuJoCo.
             ValueError: the rig refuses a number.
+            RuntimeError: the limits leave no way onto the stroke.
         """
         self.model = twin.compile(stroke)
-        self.data = mujoco.MjData(self.model)
-        self._stroke = stroke
-        self._controls = controls(self.model)
-        start = stroke.motion(0.0)
-        self.data.qpos[coordinates(self.model)[0]] = start.sweep, start.pitch
+        points, self._commands = twin.commands(self.model, stroke, CYCLES)
+        self.data = at_rest(self.model, points.motion)
 
     def step(self) -> None:
-        """One MuJoCo step, with the position of its beginning and the rate of its end.
+        """One MuJoCo step.
 
         Raises:
             FloatingPointError: the state went wrong, and MuJoCo has reset it.
         """
-        time = self.data.time
-        now, then = (self._stroke.motion(t) for t in (time, time + self.model.opt.timestep))
-        self.data.ctrl[self._controls.position] = now.sweep, now.pitch
-        self.data.ctrl[self._controls.velocity] = then.sweep_rate, then.pitch_rate
+        time, count = self.data.time, len(self._commands)
+        row, cycle = round(time / self.model.opt.timestep), count // CYCLES
+        # the last cycle again and again
+        row = row if row < count else count - cycle + (row - count) % cycle
+        self.data.ctrl[:] = self._commands[row]
         mujoco.mj_step(self.model, self.data)
         if self.data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
             raise FloatingPointError(f"the rig's acceleration is not finite at t = {time:.6g} s")

@@ -115,8 +115,8 @@ def test_friction_is_no_part_of_the_motors_torque(tmp_path: Path, element: str) 
     path.write_text(RIG_XML.read_text().replace(old, f'{old} damping="0.05"'))
     run = Twin(Rig.load(path).with_(model=STEADY), 0.005).run(SINUSOID, cycles=1)
     m, motor, rate = run.motors, Rig.load().motors.sweep, run.result.histories.sweep_rate
-    law = motor.stiffness * (m.sweep_command - m.sweep)[:-1]
-    law += motor.damping * (m.sweep_rate_command[:-1] - rate[1:])
+    law = motor.stiffness * (m.sweep_set_point - m.sweep)[:-1] + m.sweep_feedforward[:-1]
+    law += motor.damping * (m.sweep_rate_set_point[:-1] - rate[1:])
     # warm copper takes up to 1e-4
     np.testing.assert_allclose(m.sweep_motor_torque[:-1], law, rtol=1e-4)
 
