@@ -15,6 +15,7 @@ from flaprig.strokes.sun_tang import SunTangStroke
 from flaprig.wing import RIG_WING, Wing
 
 if TYPE_CHECKING:
+    from flaprig.feasibility import FeasibilityReport, Tolerances, check_feasibility
     from flaprig.rig import Rig
     from flaprig.twin import Twin, TwinRun
 
@@ -26,6 +27,7 @@ __all__ = [
     "UVLM",
     "WATER",
     "Coefficients",
+    "FeasibilityReport",
     "Fluid",
     "FourierStroke",
     "QuasiSteady",
@@ -33,15 +35,24 @@ __all__ = [
     "Rig",
     "SampledStroke",
     "SunTangStroke",
+    "Tolerances",
     "Twin",
     "TwinRun",
     "Wing",
+    "check_feasibility",
     "simulate",
     "simulate_batch",
 ]
 
 # what needs MuJoCo, by the room it is in: imported when it is asked for
-_LATE = {"Rig": "rig", "Twin": "twin", "TwinRun": "twin"}
+_LATE = {
+    "FeasibilityReport": "feasibility",
+    "Rig": "rig",
+    "Tolerances": "feasibility",
+    "Twin": "twin",
+    "TwinRun": "twin",
+    "check_feasibility": "feasibility",
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -1,6 +1,7 @@
 """The command line: reads the arguments, runs one subcommand, turns errors into one sentence.
 
-Exit codes: 0 fine, 1 the run failed, 2 bad input, 130 stopped with Ctrl-C.
+Exit codes: 0 fine, 1 the run failed, 2 bad input, 130 stopped with Ctrl-C. `flaprig check` answers
+with its code: 0 feasible, 1 infeasible; there a run that failed is 3.
 """
 
 from __future__ import annotations
@@ -16,20 +17,26 @@ from typing import Annotated, Any
 import tyro
 from tyro.conf import FlagCreatePairsOff, OmitArgPrefixes, OmitSubcommandPrefixes, subcommand
 
-from flaprig.commands import demo, simulate, twin, view
+from flaprig.commands import check, demo, export, simulate, twin, view
 from flaprig.report.folder import Folder
 
 FAILED, BAD_INPUT, STOPPED = 1, 2, 130
+# a failure where 1 is an answer
+NO_ANSWER = 3
 
 Command = (
     Annotated[simulate.Simulate, subcommand("simulate")]
     | Annotated[twin.Twin, subcommand("twin")]
+    | Annotated[check.Check, subcommand("check")]
+    | Annotated[export.Export, subcommand("export")]
     | Annotated[view.View, subcommand("view")]
     | Annotated[demo.Demo, subcommand("demo")]
 )
-_RUN: dict[type, Callable[[Any, Folder], None]] = {
+_RUN: dict[type, Callable[[Any, Folder], int | None]] = {
     simulate.Simulate: simulate.run,
     twin.Twin: twin.run,
+    check.Check: check.run,
+    export.Export: export.run,
     view.View: view.run,
     demo.Demo: demo.run,
 }
@@ -69,15 +76,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(args: Any, folder: Folder) -> int:
     """Run the subcommand; expected errors become a sentence and an exit code."""
     try:
-        _RUN[type(args)](args, folder)
+        code = _RUN[type(args)](args, folder)
         sys.stdout.flush()
     except BrokenPipeError:
         raise
     except (ValueError, OSError) as error:
         return _say(_sentence(error), BAD_INPUT)
     except (ArithmeticError, ImportError, RuntimeError) as error:
-        return _say(_sentence(error), FAILED)
-    return 0
+        return _say(_sentence(error), NO_ANSWER if isinstance(args, check.Check) else FAILED)
+    return code or 0
 
 
 def _parse(argv: list[str]) -> Any:

@@ -57,7 +57,7 @@ class StrokeOptions:
         """
         if self.file is not None:
             _refuse_changed(self, [f.name for f in fields(self)][:-1], "with --stroke FILE")
-            return load(self.file)
+            return read_stroke(self.file)
         for name in ("sweep_amplitude", "pitch_amplitude"):
             check.in_range("stroke", _flag(name), getattr(self, name), 0.0, 180.0, "degrees")
         return SunTangStroke(
@@ -67,6 +67,28 @@ class StrokeOptions:
             self.sweep_duration,
             self.pitch_duration,
         )
+
+
+def read_stroke(path: Path, log_frequency: float | None = None) -> Stroke:
+    """The stroke in a file; a CSV is read as a rig's log, which is checked more closely.
+
+    Args:
+        path: JSON of a formula stroke, or CSV of angles against time.
+        log_frequency: strokes per second in [Hz] of a log of many cycles; None: it holds one.
+
+    Raises:
+        ValueError: one sentence on what is wrong in the file.
+        OSError: the file cannot be read.
+    """
+    # scipy comes with it: not for --help
+    from flaprig.limits import read_log
+
+    if not path.read_bytes()[:1000].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
+        return read_log(path, log_frequency).stroke
+    if log_frequency is not None:
+        allowed = "left out unless --stroke FILE is a log"
+        raise check.fail("options", "--log-frequency", allowed, log_frequency)
+    return load(path)
 
 
 @dataclass(frozen=True)

@@ -11,12 +11,14 @@ from tyro.conf import arg
 from flaprig.commands import options
 from flaprig.commands.progress import progress
 from flaprig.commands.run_output import Case, tell, timed, write_pictures
+from flaprig.commands.servo_options import ServoOptions
 from flaprig.report.folder import Folder
 from flaprig.report.motors import draw_motors
 from flaprig.report.numbers import as_json
 
 if TYPE_CHECKING:
     from flaprig.aero.air import Progress
+    from flaprig.rig import Rig
     from flaprig.twin import TwinRun
 
 
@@ -38,6 +40,7 @@ class Twin:
     wing: options.WingOptions = field(default_factory=options.WingOptions)
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
     model: options.ModelOptions = field(default_factory=options.ModelOptions)
+    servo: ServoOptions = field(default_factory=ServoOptions)
     cycles: int = 3
     time_step: float = 0.002
     json: bool = False
@@ -61,7 +64,7 @@ def run(args: Twin, folder: Folder) -> None:
     )
     folder.create()
     with timed() as spent, progress("twin") as told:
-        done = fly(case, args.time_step, told)
+        done = fly(case, args.time_step, told, args.servo)
     summary = {"command": "twin", **case.summary(), **done.summary(), **spent}
     folder.write("histories.csv", done.save)
     folder.write("histories.npz", done.save)
@@ -71,16 +74,22 @@ def run(args: Twin, folder: Folder) -> None:
     tell(args.json, f"twin, {case.title}", summary, folder)
 
 
-def fly(case: Case, time_step: float, told: Progress | None) -> TwinRun:
+def fly(
+    case: Case, time_step: float, told: Progress | None, servo: ServoOptions | None = None
+) -> TwinRun:
     """The rig's run of a case."""
+    machine = (servo or ServoOptions()).twin(rig_of(case), time_step)
+    return machine.run(case.stroke, case.cycles, told)
+
+
+def rig_of(case: Case) -> Rig:
+    """The rig with the case's wing, fluid and model."""
     # mujoco takes half a second to import: not for --help
     from flaprig.rig import Rig
-    from flaprig.twin import Twin as Machine
 
-    rig = Rig.load().with_(
+    return Rig.load().with_(
         wing=case.wing, fluid=case.fluid, model=case.model, frequency=case.stroke.frequency
     )
-    return Machine(rig, time_step=time_step).run(case.stroke, case.cycles, told)
 
 
 def write_motors(folder: Folder, done: TwinRun, case: Case) -> None:

@@ -1,0 +1,79 @@
+"""`flaprig export`: set points of a stroke for the real rig, within the servos' limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from tyro.conf import arg
+
+from flaprig.aero.models import QuasiSteady
+from flaprig.commands import options
+from flaprig.commands.run_output import Case
+from flaprig.commands.twin import rig_of
+from flaprig.report.folder import Folder
+from flaprig.report.numbers import as_json
+
+
+@dataclass(frozen=True)
+class Export:
+    """Set points for the real rig: from rest, within the servos' limits, along a stroke, to a stop.
+
+    Leaves trajectory.csv (angles, rates, accelerations and the torque that quasi-steady fluid
+    asks for) and counts.csv (the servos' position counts), one row a control interval.
+
+    Attributes:
+        cycles: that are followed between start and stop.
+        interval: of the servos' control [s].
+        json: print exactly one JSON object and nothing else.
+        out: folder for the two files.
+    """
+
+    stroke: options.StrokeOptions = field(default_factory=options.StrokeOptions)
+    wing: options.WingOptions = field(default_factory=options.WingOptions)
+    fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
+    cycles: int = 5
+    interval: float = 0.01
+    json: bool = False
+    out: Annotated[Path, arg(metavar="DIR")] = Path("export")
+
+
+def run(args: Export, folder: Folder) -> None:
+    """Project, filter, write, tell.
+
+    Raises:
+        ValueError: bad input.
+        RuntimeError: no way onto the stroke was found.
+        OSError: a file cannot be read or written.
+    """
+    from flaprig.feedforward import needed_torques
+    from flaprig.limits import XM430_RIG, filtered
+    from flaprig.set_points import own_limits
+
+    wing, stroke, fluid = args.wing.build(), args.stroke.build(), args.fluid.build()
+    rig = rig_of(Case(wing, stroke, QuasiSteady(), fluid, args.cycles))
+    limits = own_limits(rig, rig.compile())
+    played = filtered(stroke, limits, args.cycles, args.interval)
+    torque = needed_torques(rig, played.motion)
+    # a row a set point: the last one stands still
+    torque = np.vstack([torque, torque[-1:]])
+    folder.create()
+    folder.write("trajectory.csv", lambda draft: played.save(draft, torque))
+    folder.write("counts.csv", lambda draft: XM430_RIG.save(draft, played.motion))
+    summary = {
+        "command": "export",
+        "interval_s": played.interval,
+        "set_points": len(played.motion.time),
+        "joined_at_s": played.joined_at,
+        "left_at_s": played.left_at,
+        "projection_rms_rad": played.projection.distance_rms,
+        "peak_sweep_torque_Nm": float(np.abs(torque[:, 0]).max()),
+        "peak_pitch_torque_Nm": float(np.abs(torque[:, 1]).max()),
+    }
+    if args.json:
+        print(as_json(summary))
+        return
+    for name in ("trajectory.csv", "counts.csv"):
+        print(folder.path / name if folder.path else name)
