@@ -35,8 +35,6 @@ __all__ = ["FeasibilityReport", "Tolerances", "Verdict", "check_feasibility"]
 _TWIN_SHARE = 0.7
 # smallest lift over drag that changes are shares of: a stroke without lift has no percent of it
 _LEAST_LIFT = 0.1
-# samples of a projection where the usual number fails
-_COARSE = 200
 # first line of a saved report
 HEADER = "joint,quantity,unit,value,bound,margin,holds"
 
@@ -164,7 +162,7 @@ def check_feasibility(
         raise check.fail(owner, "tolerances", "a Tolerances", tolerances)
     limits = own_limits(rig, rig.spec().compile()) if limits is None else limits
     check_limits(owner, limits)
-    projection = _nearest(stroke, limits)
+    projection = project(stroke, limits)
     run = _run(replace(twin, limits=limits), stroke, projection, cycles, _part(progress, 0.0))
     prescribed = simulate(
         rig.wing, stroke, rig.model, rig.fluid, cycles, progress=_part(progress, _TWIN_SHARE)
@@ -192,14 +190,6 @@ def servo_work(run: TwinRun, stroke: Stroke, axis: Axis) -> Work:
         speed=0.5 * (speed + np.roll(speed, -1)),
         error=part(getattr(motors, axis)) - asked,
     )
-
-
-def _nearest(stroke: Stroke, limits: Limits) -> Projection:
-    """The projection; far beyond the limits its solver may want a coarser spline."""
-    try:
-        return project(stroke, limits)
-    except RuntimeError:
-        return project(stroke, limits, samples=_COARSE)
 
 
 def _run(

@@ -19,12 +19,10 @@ from flaprig import (
     Tolerances,
     TwinRun,
     check_feasibility,
-    feasibility,
 )
 from flaprig.aero.simulate import reference_force
 from flaprig.feasibility import FeasibilityReport
 from flaprig.limits import PAPER_KINEMATICS, SINUSOID, rig_limits
-from flaprig.limits.projection import Projection
 from flaprig.motors import RIG_MOTORS
 from flaprig.report.numbers import plain
 
@@ -162,18 +160,6 @@ def test_stroke_without_lift_is_not_judged_by_percents_of_nothing() -> None:
     change = found.verdict("cl_change").value
     assert change == pytest.approx((reached.cl - exact.cl) / (0.1 * exact.cd))
     assert found.feasible, found.broken
-
-
-def test_a_solver_that_gives_up_gets_a_coarser_spline(monkeypatch: pytest.MonkeyPatch) -> None:
-    whole = feasibility.project
-
-    def fails(wanted: SunTangStroke, limits: flaprig.limits.Limits, **more: int) -> Projection:
-        if not more:
-            raise RuntimeError("nearest: the solver gave up")
-        return whole(wanted, limits, **more)
-
-    monkeypatch.setattr(feasibility, "project", fails)
-    assert not check_feasibility(RIG, stroke(0.8), cycles=2).feasible
 
 
 def test_without_a_start_from_rest(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -110,7 +110,8 @@ def project(
             wanted stroke. Where the limits forbid that, the joint gets its nearest motion without
             it, and `notices` names the bound.
         strict: raise the notice as an error instead.
-        samples: of the projected stroke, 32 to 5000.
+        samples: of the projected stroke, 32 to 5000; fewer where the solver fails with so many,
+            as it may far beyond the limits.
 
     Raises:
         ValueError: a bad argument, or, if strict, an amplitude that the limits forbid; the
@@ -122,6 +123,19 @@ def project(
         amplitudes = stroke.sweep_amplitude, stroke.pitch_amplitude
         sweep, pitch = (JointProjection(amplitude=amplitude) for amplitude in amplitudes)
         return Projection(stroke, sweep, pitch)
+    while True:
+        try:
+            return _projected(stroke, limits, keep_amplitude, strict, samples)
+        except RuntimeError:
+            if samples < 2 * LEAST_SAMPLES:
+                raise
+            samples //= 2
+
+
+def _projected(
+    stroke: Stroke, limits: Limits, keep_amplitude: bool, strict: bool, samples: int
+) -> Projection:
+    """`project` of a stroke beyond the limits, with so many samples."""
     motion = stroke.sample(POINTS * samples)
     angles, parts, notices = [], list[JointProjection](), list[str]()
     for joint in JOINTS:

@@ -190,3 +190,10 @@ def test_bad_input_gives_one_sentence(sine, rig):
         arguments = {"stroke": sine, "limits": rig} | changes
         with pytest.raises(ValueError, match=f"^project: {sentence}"):
             project(**arguments)
+
+
+@pytest.mark.parametrize("frequency", [2.21, 10.0, 100.0])
+def test_far_beyond_the_limits_there_is_still_a_nearest_stroke(rig, frequency):
+    # at 2.21 Hz the solver fails with the usual number of samples, and fewer do
+    found = project(SunTangStroke(frequency, A, B, 0.16, 0.16), rig)
+    assert found.changed and not violations(found.stroke, rig)
