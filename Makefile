@@ -38,7 +38,7 @@ stub: build
 
 bench: build
 	@printf '%s\n' '== benchmarks'
-	@$(BIN)/python -m pytest benchmarks -p no:xdist --benchmark-enable --benchmark-only
+	@$(BIN)/python -m pytest benchmarks -o 'python_files=bench_*.py' -p no:xdist --benchmark-enable --benchmark-only
 
 clean:
 	rm -rf $(VENV) build dist demo_output .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks
