@@ -17,7 +17,7 @@ from typing import Annotated, Any
 import tyro
 from tyro.conf import FlagCreatePairsOff, OmitArgPrefixes, OmitSubcommandPrefixes, subcommand
 
-from flaprig.commands import check, demo, export, simulate, twin, view
+from flaprig.commands import check, demo, export, reproduce, simulate, twin, view
 from flaprig.report.folder import Folder
 
 FAILED, BAD_INPUT, STOPPED = 1, 2, 130
@@ -29,6 +29,7 @@ Command = (
     | Annotated[twin.Twin, subcommand("twin")]
     | Annotated[check.Check, subcommand("check")]
     | Annotated[export.Export, subcommand("export")]
+    | Annotated[reproduce.Reproduce, subcommand("reproduce")]
     | Annotated[view.View, subcommand("view")]
     | Annotated[demo.Demo, subcommand("demo")]
 )
@@ -37,6 +38,7 @@ _RUN: dict[type, Callable[[Any, Folder], int | None]] = {
     twin.Twin: twin.run,
     check.Check: check.run,
     export.Export: export.run,
+    reproduce.Reproduce: reproduce.run,
     view.View: view.run,
     demo.Demo: demo.run,
 }
