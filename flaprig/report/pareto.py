@@ -17,7 +17,7 @@ class Gain:
         name: of the bounds, written beside the point.
         lift: gain of the mean lift coefficient over the sinusoid in [%].
         lift_to_drag: gain of the mean lift over mean drag in [%].
-        series: what was searched with; points of a series are joined.
+        series: what was searched with; points of a series share a colour.
     """
 
     name: str
@@ -41,13 +41,15 @@ def draw_pareto(path: Path, gains: Sequence[Gain], published: Sequence[Gain], ti
         for colour, name in zip(style.SERIES, names, strict=False):
             chosen = [gain for gain in gains if gain.series == name]
             x, y = [g.lift for g in chosen], [g.lift_to_drag for g in chosen]
-            axes.plot(x, y, "o-", color=colour, linewidth=1.2, markersize=5, label=name)
-            for gain in chosen:
+            axes.plot(x, y, "o", color=colour, markersize=5, label=name)
+            for k, gain in enumerate(chosen):
                 axes.annotate(
                     gain.name,
                     (gain.lift, gain.lift_to_drag),
                     textcoords="offset points",
-                    xytext=(6, -11),
+                    # on both sides in turn: neighbours come close where bounds stop to matter
+                    xytext=(6, 6) if k % 2 else (-6, -11),
+                    ha="left" if k % 2 else "right",
                     fontsize=8.0,
                     color=colour,
                 )
@@ -57,10 +59,11 @@ def draw_pareto(path: Path, gains: Sequence[Gain], published: Sequence[Gain], ti
                 gain.name,
                 (gain.lift, gain.lift_to_drag),
                 textcoords="offset points",
-                xytext=(7, 5),
+                xytext=(-7, 5),
+                ha="right",
                 fontsize=8.0,
             )
-        axes.margins(0.12)
+        axes.margins(0.2)
         axes.set(xlabel="gain of $C_L$ over the sinusoid [%]", ylabel="gain of $L/D$ [%]")
         axes.legend(loc="lower right")
         drawing.suptitle(title, x=0.01, ha="left", fontsize=11.5)
