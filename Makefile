@@ -5,7 +5,9 @@ VENV ?= .venv
 EXTRAS ?= video,dev
 BIN := $(VENV)/bin
 LOG := $(VENV)/log.txt
-BUILT := $(VENV)/built
+# other extras are another build
+comma := ,
+BUILT := $(VENV)/built-$(subst $(comma),-,$(EXTRAS))
 NATIVE := $(wildcard flaprig/native/*.cpp flaprig/native/*.hpp flaprig/native/plugin/*)
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
