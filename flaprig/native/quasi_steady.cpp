@@ -45,12 +45,17 @@ void QuasiSteady::add_strip_mass(const Strip& s) {
 
 // Lift and drag of the section's own motion (vx, vz) through the fluid, spanwise flow left out.
 // Lift turns the relative wind towards the side that the wing leans on.
-void QuasiSteady::add_translation(const Strip& s, double vx, double vz, Wrench& load) const {
-  const double speed2 = vx * vx + vz * vz, speed = std::sqrt(speed2);
+void QuasiSteady::add_translation(const Strip& s, double vx, double vz, double speed,
+                                  Section& section, Wrench& load) const {
   if (speed < 1e-12) return;
+  const double speed2 = speed * speed;
   // between the chord, seen from the leading edge, and the motion: 0 edge on, pi tail first
   const double alpha = std::atan2(std::abs(vz), -vx);
-  const LiftDrag c = coefficients(alpha);
+  // on a wing that turns about its origin all strips meet the fluid at one angle: the sines are
+  // taken again only where it changes by more than rounding
+  constexpr double kSame = 1e-14;
+  if (!(std::abs(alpha - section.alpha) <= kSame)) section = {alpha, coefficients(alpha)};
+  const LiftDrag c = section.at;
   const double force = 0.5 * density_ * speed2 * s.chord * s.width;
   const double ux = vx / speed, uz = vz / speed, side = vz > 0 ? -1 : 1;
   // drag against the motion; lift across it, towards the side that the fluid is pushed from
@@ -76,15 +81,15 @@ void QuasiSteady::add_rotation(const Strip& s, double speed, double spin, Wrench
 Loads QuasiSteady::loads(const double*, const Motion& motion) const {
   const Twist t = relative_to_wind(motion, wind_w_).twist;
   Loads loads;
+  Section section;
   for (const Strip& s : strips_) {
     if (!(s.chord > 0)) continue;
     // of the strip's point on the pitch axis
     const double vx = t.linear.x - t.angular.z * s.radius;
     const double vz = t.linear.z + t.angular.x * s.radius;
-    add_translation(s, vx, vz, loads.base);
-    if (settings_.rotation) {
-      add_rotation(s, std::hypot(vx, vz), t.angular.y, loads.extra);
-    }
+    const double speed = std::sqrt(vx * vx + vz * vz);
+    add_translation(s, vx, vz, speed, section, loads.base);
+    if (settings_.rotation) add_rotation(s, speed, t.angular.y, loads.extra);
   }
   return loads;
 }

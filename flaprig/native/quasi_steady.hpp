@@ -24,7 +24,13 @@ class QuasiSteady : public Air {
   struct Strip {
     double radius, chord, leading_edge, width;
   };
-  void add_translation(const Strip& strip, double vx, double vz, Wrench& load) const;
+  // coefficients at an angle of attack; neighbouring strips mostly share it
+  struct Section {
+    double alpha = -1;
+    LiftDrag at{};
+  };
+  void add_translation(const Strip& strip, double vx, double vz, double speed, Section& section,
+                       Wrench& load) const;
   void add_rotation(const Strip& strip, double speed, double spin, Wrench& load) const;
   void add_strip_mass(const Strip& strip);
 
