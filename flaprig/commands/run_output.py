@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,15 @@ from flaprig.wing import Wing
 WAKE_INSTANT = 2.33
 # what people call the models
 NAMES = {"flaprig.uvlm": "UVLM", "flaprig.quasi_steady": "quasi-steady"}
+
+
+def write_histories(
+    folder: Folder, save: Callable[[Path], object], summary: dict[str, Any]
+) -> None:
+    """histories.csv, histories.npz and summary.json."""
+    folder.write("histories.csv", save)
+    folder.write("histories.npz", save)
+    folder.write_text("summary.json", as_json(summary) + "\n")
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,8 @@ from tyro.conf import arg
 import flaprig
 from flaprig.commands import options
 from flaprig.commands.progress import progress
-from flaprig.commands.run_output import Case, tell, timed, write_pictures
+from flaprig.commands.run_output import Case, tell, timed, write_histories, write_pictures
 from flaprig.report.folder import Folder
-from flaprig.report.numbers import as_json
 
 
 @dataclass(frozen=True)
@@ -59,8 +58,6 @@ def run(args: Simulate, folder: Folder) -> None:
             case.wing, case.stroke, case.model, case.fluid, case.cycles, progress=told
         )
     summary = {"command": "simulate", **case.summary(), **result.summary(), **spent}
-    folder.write("histories.csv", result.save)
-    folder.write("histories.npz", result.save)
-    folder.write_text("summary.json", as_json(summary) + "\n")
+    write_histories(folder, result.save, summary)
     write_pictures(folder, case, result)
     tell(args.json, case.title, summary, folder)

@@ -10,11 +10,10 @@ from tyro.conf import arg
 
 from flaprig.commands import options
 from flaprig.commands.progress import progress
-from flaprig.commands.run_output import Case, tell, timed, write_pictures
+from flaprig.commands.run_output import Case, tell, timed, write_histories, write_pictures
 from flaprig.commands.servo_options import ServoOptions
 from flaprig.report.folder import Folder
 from flaprig.report.motors import draw_motors
-from flaprig.report.numbers import as_json
 
 if TYPE_CHECKING:
     from flaprig.aero.air import Progress
@@ -66,9 +65,7 @@ def run(args: Twin, folder: Folder) -> None:
     with timed() as spent, progress("twin") as told:
         done = fly(case, args.time_step, told, args.servo)
     summary = {"command": "twin", **case.summary(), **done.summary(), **spent}
-    folder.write("histories.csv", done.save)
-    folder.write("histories.npz", done.save)
-    folder.write_text("summary.json", as_json(summary) + "\n")
+    write_histories(folder, done.save, summary)
     write_motors(folder, done, case)
     write_pictures(folder, case, done.result)
     tell(args.json, f"twin, {case.title}", summary, folder)
