@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <system_error>
 #include <thread>
 
@@ -46,6 +47,7 @@ FLAPRIG_INLINE void reach(T vx, T vy, T vz, const Block<T>& block, Arm<T>& arm) 
 // (|a||b| + d)): no cancellation far away, where single precision would lose it.
 template <class T>
 FLAPRIG_INLINE void add_edge(const Arm<T>& a, const Arm<T>& b, T strength, T soft, Block<T>& block) {
+  constexpr T kEpsilon = std::numeric_limits<T>::epsilon();
   constexpr T kTiny = static_cast<T>(1e-22);  // an end of the edge itself: 0/0 becomes 0
   for (int p = 0; p < kLanes; ++p) {
     const T nx = a.y[p] * b.z[p] - a.z[p] * b.y[p];
@@ -54,8 +56,9 @@ FLAPRIG_INLINE void add_edge(const Arm<T>& a, const Arm<T>& b, T strength, T sof
     const T d = a.x[p] * b.x[p] + a.y[p] * b.y[p] + a.z[p] * b.z[p];
     const T n2 = nx * nx + ny * ny + nz * nz;
     const T lengths = a.length[p] * b.length[p];
-    // rounding may leave |a||b| + d below zero on the edge's own line
-    const T facing = std::max(lengths + d, T(0));
+    // on the edge itself |a||b| + d is lost to rounding, n^2 is not: without a floor their ratio
+    // would fling the vertex away
+    const T facing = std::max(lengths + d, kEpsilon * lengths);
     const T scale = strength * (a.length[p] + b.length[p]) * n2 /
                     ((n2 + soft) * lengths * facing + kTiny);
     block.u[p] += scale * nx;
