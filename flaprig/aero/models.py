@@ -16,7 +16,7 @@ SWEEP_AMPLITUDE = math.pi / 3
 
 # suction efficiency of eq. 6 that gives the paper's sinusoid its measured C_L of 1.94 with the
 # other defaults below: a calibration on one case, not a prediction (docs/model.md)
-SUCTION_EFFICIENCY = 0.72
+SUCTION_EFFICIENCY = 0.70
 
 
 class AirModel(Protocol):
@@ -60,6 +60,8 @@ class UVLM:
         suction_factor: 1 for eq. 6 as printed, 4/pi to make eta_s = 1 the exact flat-plate
             suction (the lattice returns pi/4 of it).
         wake_cycles: length of the wake kept, in cycles.
+        wake_fade: share of the wake's rows, the oldest, over which its circulation fades to
+            nothing. At 0 the wake ends in a strong vortex, another one at every step.
         core: radius of the vortex core, in mean chords.
         shedding_fraction: where a new wake row is placed, of the way from the trailing edge to
             the last free row (1/3: paper and Ramesh 2014; 1/4: the more accurate one).
@@ -76,6 +78,7 @@ class UVLM:
     suction_efficiency: float = SUCTION_EFFICIENCY
     suction_factor: float = 1.0
     wake_cycles: float = 1.0
+    wake_fade: float = 0.1
     core: float = 0.15
     shedding_fraction: float = 1.0 / 3.0
     tip_inset: float = 0.25
@@ -93,6 +96,7 @@ class UVLM:
         check.in_range(owner, "suction_efficiency", self.suction_efficiency, 0, 10)
         check.in_range(owner, "suction_factor", self.suction_factor, 0, 2)
         check.in_range(owner, "wake_cycles", self.wake_cycles, 0.01, 100)
+        check.in_range(owner, "wake_fade", self.wake_fade, 0, 1)
         check.positive(owner, "core", self.core, "mean chords", most=2)
         check.in_range(owner, "shedding_fraction", self.shedding_fraction, 0.01, 0.99)
         check.in_range(owner, "tip_inset", self.tip_inset, 0, 0.5, "strips")
@@ -115,6 +119,7 @@ class UVLM:
             "spanwise": int(self.spanwise),
             "wake_step": float(1.0 / (frequency * self.steps_per_cycle)),
             "wake_rows": max(1, round(self.wake_cycles * self.steps_per_cycle)),
+            "wake_fade": float(self.wake_fade),
             "core": float(self.core),
             "shedding_fraction": float(self.shedding_fraction),
             "tip_inset": float(self.tip_inset),

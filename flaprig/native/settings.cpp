@@ -47,6 +47,7 @@ UvlmSettings read_uvlm(const Reader& read) {
   if (static_cast<double>(s.wake_rows) * s.spanwise * 4 > kLargestState) {
     read.refuse("wake_rows", "at most 5e6 over spanwise");
   }
+  s.wake_fade = read.number("wake_fade", s.wake_fade, {0, 1}, "");
   s.core = read.number("core", s.core, {0, 2, true}, "mean chords");
   s.shedding_fraction = read.number("shedding_fraction", s.shedding_fraction, {0.01, 0.99}, "");
   s.tip_inset = read.number("tip_inset", s.tip_inset, {0, 0.5}, "strips");
@@ -138,7 +139,7 @@ const std::vector<const char*>& attribute_names(Model model) {
   static const std::vector<const char*> uvlm = {
       "site",     "span",         "chord",             "root_offset", "pitch_axis", "stations",
       "density",  "wind",         "thickness",         "buoyancy",    "chordwise",  "spanwise",
-      "wake_step", "wake_rows",   "core",              "shedding_fraction",         "tip_inset",
+      "wake_step", "wake_rows",   "wake_fade",         "core",              "shedding_fraction",         "tip_inset",
       "suction_efficiency",       "suction_factor",    "threads"};
   return model == Model::kUvlm ? uvlm : quasi_steady;
 }

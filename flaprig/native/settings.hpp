@@ -17,10 +17,11 @@ struct UvlmSettings {
   int chordwise = 6, spanwise = 12;
   double wake_step = 0.05;             // time between wake rows [s]
   int wake_rows = 100;                 // frozen rows kept
+  double wake_fade = 0.1;              // share of them, the oldest, that fades to nothing
   double core = 0.15;                  // vortex core radius [mean chords]
   double shedding_fraction = 1.0 / 3;  // of the way to the last free row (Ramesh 2014)
   double tip_inset = 0.25;             // of a strip
-  double suction_efficiency = 0.72;    // eta_s of eq. 6, calibrated: docs/model.md
+  double suction_efficiency = 0.7;     // eta_s of eq. 6, calibrated: docs/model.md
   double suction_factor = 1;           // 1: eq. 6 as printed; 4/pi: exact flat-plate suction
   int threads = 1;
 };

@@ -103,8 +103,8 @@ void Tick::convect() {
   }
   const double* g = wake_.circulation();
   const auto rings = std::copy_n(g, bound * n, sheet.circulation.begin());
-  const auto kutta = std::copy_n(g + (bound - 1) * n, n, rings);
-  std::copy_n(wake_.strengths(), rows * n, kutta);
+  std::copy_n(g + (bound - 1) * n, n, rings);
+  air_.free_strengths(wake_, sheet.circulation.data() + (bound + 1) * n);
   induced_velocity(sheet, static_cast<float>(air_.settings().core), points, velocity,
                    air_.settings().threads);
   for (int v = 0; v < count; ++v) {
@@ -133,7 +133,7 @@ void Tick::wake_stream() {
   for (int v = 0; v < (rows + 1) * (n + 1); ++v) {
     put(sheet, v, wake_.vertex(v / (n + 1), v % (n + 1)) - motion_.position_w, scale);
   }
-  std::copy_n(wake_.strengths(), rows * n, sheet.circulation.begin());
+  air_.free_strengths(wake_, sheet.circulation.data());
   Points<double> points(m), velocity(m);
   for (int k = 0; k < m; ++k) {
     const Vec3 p = scale * (motion_.rotation * lattice_.collocation(k));

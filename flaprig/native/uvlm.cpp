@@ -1,5 +1,6 @@
 #include "uvlm.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tick.hpp"
@@ -15,6 +16,14 @@ Uvlm::Uvlm(const Planform& planform, const UvlmSettings& settings, double densit
   reference_radius_ = planform.second_moment_radius();
   added_mass_ = lattice_.unit_added_mass();
   for (double& a : added_mass_) a *= density;
+  // a wake that ends at full strength ends in a strong vortex, another one at every tick: in hover
+  // it lies beside the wing, and its leaps are most of the noise in the pitch torque
+  const double rows = settings.wake_rows;
+  for (int row = 0; row < settings.wake_rows; ++row) {
+    const double left = (rows - row) / (rows + 1);
+    const double x = settings.wake_fade > 0 ? std::min(1.0, left / settings.wake_fade) : 1.0;
+    fade_.push_back(x * x * (3 - 2 * x));
+  }
   // eq. 6 is a force per unit span: the strip's width completes it
   const int n = lattice_.spanwise();
   for (int j = 0; j < n; ++j) {

@@ -21,6 +21,14 @@ class Uvlm : public Air {
   // one step of the wake at this motion, whatever its age
   void tick(double* state, const Motion& motion) const;
   Wake wake(double* state) const;
+  // what the frozen rings still carry: their strengths, faded towards the oldest row
+  template <class T>
+  void free_strengths(Wake& wake, T* out) const {
+    const double* strengths = wake.strengths();
+    for (int row = 0; row < static_cast<int>(wake.rows()); ++row) {
+      for (int j = 0; j < wake.strips; ++j) *out++ = static_cast<T>(fade_[row] * *strengths++);
+    }
+  }
   const Lattice& lattice() const { return lattice_; }
   const UvlmSettings& settings() const { return settings_; }
   double core() const { return core_; }
@@ -37,6 +45,7 @@ class Uvlm : public Air {
   UvlmSettings settings_;
   Lattice lattice_;
   double density_, core_;
+  std::vector<double> fade_;            // per row, newest first
   std::vector<double> suction_weight_;  // per strip: force / (G |G|)
 };
 

@@ -18,6 +18,7 @@ BAD_UVLM = {
     "suction_efficiency": [-0.1, 11, math.nan],
     "suction_factor": [-1, 2.5],
     "wake_cycles": [0, -1, 101, math.inf],
+    "wake_fade": [-0.1, 1.1, math.nan],
     "core": [0, -0.1, 2.1, "a"],
     "shedding_fraction": [0, 1, math.nan],
     "tip_inset": [-0.1, 0.6],
@@ -68,7 +69,9 @@ def test_wake_clock_follows_the_frequency():
     assert attributes["wake_rows"] == "120"
 
 
-@pytest.mark.parametrize("name", ["core", "suction_efficiency", "shedding_fraction", "tip_inset"])
+@pytest.mark.parametrize(
+    "name", ["core", "wake_fade", "suction_efficiency", "shedding_fraction", "tip_inset"]
+)
 def test_settings_pass_to_the_last_bit(name):
     value = 0.1 + 0.2
     assert float(UVLM(**{name: value}).attributes(RIG_WING, WATER, 0.2)[name]) == value

@@ -69,7 +69,8 @@ def test_single_is_good_on_the_edges_themselves():
         vertices, along = rng.uniform(-2, 2, (2, 2, 3)), rng.uniform(0, 1, (2000, 1))
         points = vertices[0, 0] + along * (vertices[0, 1] - vertices[0, 0])
         double, single = (
-            _native.sheet_velocity(vertices, np.ones((1, 1)), 0.15, points, s) for s in (False, True)
+            _native.sheet_velocity(vertices, np.ones((1, 1)), 0.15, points, s)
+            for s in (False, True)
         )
         np.testing.assert_allclose(single, double, atol=1e-3)
 
