@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import ClassVar, Protocol
 
 from flaprig import _checks as check
@@ -17,6 +18,14 @@ SWEEP_AMPLITUDE = math.pi / 3
 # suction efficiency of eq. 6 that gives the paper's sinusoid its measured C_L of 1.94 with the
 # other defaults below: a calibration on one case, not a prediction (docs/model.md)
 SUCTION_EFFICIENCY = 0.70
+
+
+class Rate(StrEnum):
+    """How the rate of the circulation is told from the last steps."""
+
+    RAMPED = "ramped"
+    BACKWARD = "backward"
+    SECOND_ORDER = "second_order"
 
 
 class AirModel(Protocol):
@@ -66,6 +75,12 @@ class UVLM:
         shedding_fraction: where a new wake row is placed, of the way from the trailing edge to
             the last free row (1/3: paper and Ramesh 2014; 1/4: the more accurate one).
         tip_inset: how far the lattice's ends lie inside the tips, in strips (Hough 1973).
+        side_suction_efficiency: the same of the suction around the tips, as a share of its exact
+            value (Lamb 1974); 0, the paper's model, has none.
+        circulation_lag: travel in chords over which the circulation that the loads see follows
+            the bound one, as a leading-edge vortex builds up; 0, the paper's model, has no lag.
+        rate: how dG/dt is told from the last steps: "ramped", smooth but a step and a half late;
+            "backward", the last difference (Katz & Plotkin); "second_order".
         threads: threads of the wake's roll-up; results do not depend on it.
 
     Raises:
@@ -82,6 +97,9 @@ class UVLM:
     core: float = 0.15
     shedding_fraction: float = 1.0 / 3.0
     tip_inset: float = 0.25
+    side_suction_efficiency: float = 0.0
+    circulation_lag: float = 0.0
+    rate: Rate = Rate.RAMPED
     threads: int = 1
     plugin: ClassVar[str] = "flaprig.uvlm"
     parts: ClassVar[tuple[str, str]] = ("potential", "suction")
@@ -100,6 +118,9 @@ class UVLM:
         check.positive(owner, "core", self.core, "mean chords", most=2)
         check.in_range(owner, "shedding_fraction", self.shedding_fraction, 0.01, 0.99)
         check.in_range(owner, "tip_inset", self.tip_inset, 0, 0.5, "strips")
+        check.in_range(owner, "side_suction_efficiency", self.side_suction_efficiency, 0, 10)
+        check.in_range(owner, "circulation_lag", self.circulation_lag, 0, 10, "chords")
+        check.one_of(owner, "rate", self.rate, Rate)
         check.whole(owner, "threads", self.threads, 1, 64)
 
     def attributes(
@@ -125,9 +146,12 @@ class UVLM:
             "tip_inset": float(self.tip_inset),
             "suction_efficiency": float(self.suction_efficiency),
             "suction_factor": float(self.suction_factor),
+            "side_suction_efficiency": float(self.side_suction_efficiency),
+            "circulation_lag": float(self.circulation_lag),
+            "rate": Rate(self.rate),
             "threads": int(self.threads),
         }
-        text = {name: repr(value) for name, value in settings.items()}
+        text = {n: v.value if isinstance(v, Rate) else repr(v) for n, v in settings.items()}
         return geometry_attributes(wing, fluid) | text
 
 

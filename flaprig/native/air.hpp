@@ -47,6 +47,10 @@ class Air {
   virtual int state_size() const = 0;
   // loads at this motion; reads the state, changes nothing
   virtual Loads loads(const double* state, const Motion& motion) const = 0;
+  // brings the memory up to this instant, where a step dt begins, for models whose loads look at
+  // the wake of the instant itself; the others do all in advance()
+  virtual void prepare(double*, const Motion&, double) const {}
+  virtual bool prepares() const { return false; }
   // takes the memory over a step dt that began at this motion
   virtual void advance(double* state, const Motion& motion, double dt) const = 0;
   // symmetric 3 x 3 mass on (v_z, w_x, w_y); constant in the wing frame

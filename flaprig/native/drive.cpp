@@ -31,6 +31,7 @@ void drive(const Air& air, double* state, const MotionArrays& motion, double* ba
            double* added) {
   for (int i = 0; i < motion.n; ++i) {
     const Motion now = motion_at(motion, i);
+    air.prepare(state, now, motion.dt);
     const Loads loads = air.loads(state, now);
     write(loads.base, base + 6 * i);
     write(loads.extra, extra + 6 * i);

@@ -51,8 +51,13 @@ UvlmSettings read_uvlm(const Reader& read) {
   s.core = read.number("core", s.core, {0, 2, true}, "mean chords");
   s.shedding_fraction = read.number("shedding_fraction", s.shedding_fraction, {0.01, 0.99}, "");
   s.tip_inset = read.number("tip_inset", s.tip_inset, {0, 0.5}, "strips");
+  s.rate = static_cast<UvlmSettings::Rate>(
+      read.choice("rate", {"ramped", "backward", "second_order"}));
   s.suction_efficiency = read.number("suction_efficiency", s.suction_efficiency, {0, 10}, "");
   s.suction_factor = read.number("suction_factor", s.suction_factor, {0, 2}, "");
+  s.side_suction_efficiency =
+      read.number("side_suction_efficiency", s.side_suction_efficiency, {0, 10}, "");
+  s.circulation_lag = read.number("circulation_lag", s.circulation_lag, {0, 10}, "chords");
   s.threads = read.integer("threads", s.threads, 1, 64);
   return s;
 }
@@ -140,7 +145,9 @@ const std::vector<const char*>& attribute_names(Model model) {
       "site",     "span",         "chord",             "root_offset", "pitch_axis", "stations",
       "density",  "wind",         "thickness",         "buoyancy",    "chordwise",  "spanwise",
       "wake_step", "wake_rows",   "wake_fade",         "core",              "shedding_fraction",         "tip_inset",
-      "suction_efficiency",       "suction_factor",    "threads"};
+      "rate",
+      "suction_efficiency",       "suction_factor",    "side_suction_efficiency",
+      "circulation_lag",          "threads"};
   return model == Model::kUvlm ? uvlm : quasi_steady;
 }
 
@@ -159,7 +166,8 @@ Specification read_specification(Model model, const Attributes& attributes) {
 
 int state_size(const Specification& s) {
   if (s.model == Model::kQuasiSteady) return 0;
-  return Wake::state_size(s.uvlm.chordwise * s.uvlm.spanwise, s.uvlm.spanwise, s.uvlm.wake_rows);
+  return Wake::state_size(s.uvlm.chordwise * s.uvlm.spanwise, s.uvlm.spanwise, s.uvlm.wake_rows,
+                          s.uvlm.circulation_lag > 0);
 }
 
 std::unique_ptr<Air> make_air(const Specification& s) {

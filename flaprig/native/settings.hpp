@@ -14,6 +14,9 @@
 namespace flaprig {
 
 struct UvlmSettings {
+  // how dGw/dt is told from the last two intervals: ramped from the one to the other, a step and a
+  // half late but smooth (docs/model.md); the last one (Katz & Plotkin); carried on to second order
+  enum class Rate { kRamped, kBackward, kSecondOrder };
   int chordwise = 6, spanwise = 12;
   double wake_step = 0.05;             // time between wake rows [s]
   int wake_rows = 100;                 // frozen rows kept
@@ -21,8 +24,11 @@ struct UvlmSettings {
   double core = 0.15;                  // vortex core radius [mean chords]
   double shedding_fraction = 1.0 / 3;  // of the way to the last free row (Ramesh 2014)
   double tip_inset = 0.25;             // of a strip
+  Rate rate = Rate::kRamped;
   double suction_efficiency = 0.7;     // eta_s of eq. 6, calibrated: docs/model.md
   double suction_factor = 1;           // 1: eq. 6 as printed; 4/pi: exact flat-plate suction
+  double side_suction_efficiency = 0;  // the same of the tips, as a share of the exact suction
+  double circulation_lag = 0;          // travel in which the loads' circulation builds up [chords]
   int threads = 1;
 };
 

@@ -194,6 +194,20 @@ void Tick::solve() {
   }
 }
 
+// the circulation that the loads see follows the bound one over some chords of travel, as the
+// leading-edge vortex does; it begins from nothing
+void Tick::build_up(bool first) {
+  const int m = wake_.panels, n = wake_.strips;
+  for (int k = 0; k < m; ++k) {
+    const double share = 1 - std::exp(-air_.travel(k % n, relative_.twist) * elapsed_ /
+                                      air_.settings().circulation_lag);
+    double &now = wake_.lagged_n()[k], &before = wake_.lagged_p()[k];
+    const double next = now + share * (circulation_[k] - now);
+    before = first ? next : now;
+    now = next;
+  }
+}
+
 void Tick::remember() {
   const int m = wake_.panels, n = wake_.strips;
   const bool first = wake_.started() == 0;
@@ -217,6 +231,7 @@ void Tick::remember() {
     }
     wake_.circulation()[k] = circulation_[k];
   }
+  if (wake_.lags) build_up(first);
   double* pose = wake_.pose();
   pose[0] = motion_.position_w.x, pose[1] = motion_.position_w.y, pose[2] = motion_.position_w.z;
   std::copy_n(motion_.rotation.m.begin(), 9, pose + 3);

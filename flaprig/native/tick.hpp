@@ -22,6 +22,7 @@ class Tick {
   void kutta_influence();
   void solve();
   void remember();
+  void build_up(bool first);
 
   const Uvlm& air_;
   const Lattice& lattice_;

@@ -1,6 +1,9 @@
 // The modified unsteady vortex lattice method (paper, section 2.1).
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "air.hpp"
 #include "lattice.hpp"
 #include "settings.hpp"
@@ -16,6 +19,8 @@ class Uvlm : public Air {
 
   int state_size() const override;
   Loads loads(const double* state, const Motion& motion) const override;
+  void prepare(double* state, const Motion& motion, double dt) const override;
+  bool prepares() const override { return settings_.rate != UvlmSettings::Rate::kRamped; }
   void advance(double* state, const Motion& motion, double dt) const override;
 
   // one step of the wake at this motion, whatever its age
@@ -29,6 +34,8 @@ class Uvlm : public Air {
       for (int j = 0; j < wake.strips; ++j) *out++ = static_cast<T>(fade_[row] * *strengths++);
     }
   }
+  // speed of a strip's mid-chord across the span [chords/s]
+  double travel(int strip, const Twist& twist) const;
   const Lattice& lattice() const { return lattice_; }
   const UvlmSettings& settings() const { return settings_; }
   double core() const { return core_; }
@@ -38,15 +45,29 @@ class Uvlm : public Air {
  private:
   friend class Tick;
   struct Between;  // the wake's part at the present age
+  // intervals from the last one's middle to an age of s intervals
+  double lead(double s) const {
+    return settings_.rate == UvlmSettings::Rate::kSecondOrder ? s + 0.5 : 0;
+  }
+  bool due(const Wake& wake, double dt) const;
+  void place_rates();
   void steady_load(const double* g, const double* stream, const Twist& twist, Wrench& load) const;
   void rate_load(const double* rate, Wrench& load) const;
   void suction_load(const double* g, Wrench& load) const;
+  void side_load(const double* g, Wrench& load) const;
+  void weigh_suction(const Planform& planform);
+  void weigh_sides(const Planform& planform);
 
   UvlmSettings settings_;
   Lattice lattice_;
   double density_, core_;
   std::vector<double> fade_;            // per row, newest first
+  std::vector<double> rate_area_;       // that dG/dt of a ring acts on [m2], and where
+  std::vector<Vec3> rate_centre_;
   std::vector<double> suction_weight_;  // per strip: force / (G |G|)
+  std::array<double, 2> side_weight_{};  // root, tip: force on a panel's side / (G |G|)
+  std::vector<double> chord_;           // per strip [m]
+  std::vector<Vec3> middle_;            // mid-chord
 };
 
 }  // namespace flaprig

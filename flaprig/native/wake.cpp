@@ -25,7 +25,7 @@ void Wake::push_row(const double* row_strengths) {
 }
 
 void Wake::clear() {
-  std::fill_n(data, state_size(panels, strips, capacity), 0.0);
+  std::fill_n(data, state_size(panels, strips, capacity, lags), 0.0);
 }
 
 }  // namespace flaprig

@@ -10,11 +10,12 @@ namespace flaprig {
 struct Wake {
   // sizes
   int panels, strips, capacity;  // bound rings, rings a row, frozen rows at most
+  bool lags;                     // whether lagged() is there
 
   double* data;
 
-  static int state_size(int panels, int strips, int capacity) {
-    return kHeader + 8 * panels + (capacity + 1) * (strips + 1) * 3 +
+  static int state_size(int panels, int strips, int capacity, bool lags) {
+    return kHeader + (lags ? 10 : 8) * panels + (capacity + 1) * (strips + 1) * 3 +
            capacity * strips;
   }
 
@@ -31,6 +32,8 @@ struct Wake {
   double* stream_n() { return rate_p() + panels; }                // in-plane wake velocity, x y
   double* stream_p() { return stream_n() + 2 * panels; }
   double* vertices() { return stream_p() + 2 * panels; }          // newest row first, world [m]
+  double* lagged_n() { return strengths() + capacity * strips; }  // circulation that has built up
+  double* lagged_p() { return lagged_n() + panels; }
   double* strengths() { return vertices() + (capacity + 1) * (strips + 1) * 3; }
 
   Vec3 vertex(int row, int j) const;

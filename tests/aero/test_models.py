@@ -22,6 +22,9 @@ BAD_UVLM = {
     "core": [0, -0.1, 2.1, "a"],
     "shedding_fraction": [0, 1, math.nan],
     "tip_inset": [-0.1, 0.6],
+    "side_suction_efficiency": [-0.1, 11, math.nan],
+    "circulation_lag": [-0.1, 11, math.inf],
+    "rate": ["late", None, 1],
     "threads": [0, 65, 1.5],
 }
 BAD_QUASI_STEADY = {

@@ -27,6 +27,8 @@ NUMBERS = [
     (UVLM, "tip_inset", "one number from 0 to 0.5 strips", ["-0.1", "0.6"]),
     (UVLM, "suction_efficiency", "one number from 0 to 10", ["-1", "10.1"]),
     (UVLM, "suction_factor", "one number from 0 to 2", ["-1", "2.1"]),
+    (UVLM, "side_suction_efficiency", "one number from 0 to 10", ["-1", "10.1"]),
+    (UVLM, "circulation_lag", "one number from 0 to 10 chords", ["-1", "10.1"]),
     (UVLM, "chordwise", "a whole number from 1 to 64", ["0", "65", "2.5", "-3"]),
     (UVLM, "spanwise", "a whole number from 1 to 128", ["0", "129", "1.5"]),
     (UVLM, "wake_rows", "a whole number from 1 to 100000", ["0", "100001", "0.5"]),
@@ -78,6 +80,7 @@ CASES = [
     (UVLM, WING | {"buoyancy": "yes"}, 'buoyancy must be false or true, got "yes"'),
     (QS, WING | {"rotation": "1"}, 'rotation must be false or true, got "1"'),
     (QS, WING | {"added_mass": "True"}, 'added_mass must be false or true, got "True"'),
+    (UVLM, WING | {"rate": "late"}, "rate must be ramped, backward or second_order"),
     (QS, WING | {"coefficients": "lee"}, "coefficients must be dickinson1999, lee2016 or table"),
     (QS, WING | {"coefficients": "lee2016"}, "reynolds must be given with coefficients lee2016"),
     (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +21,15 @@ FREQUENCY = RIG_FREQUENCY
 SMALL = UVLM(chordwise=3, spanwise=4, steps_per_cycle=40)
 # the attributes with which the plugins are what flaprig.simulate runs
 LATTICE = {"site": "wing_frame"} | SMALL.attributes(RIG_WING, WATER, FREQUENCY)
+# the wake of the instant itself, circulation that lags, suction around the tips
+EXTENDED = replace(
+    SMALL,
+    steps_per_cycle=100,
+    rate="backward",
+    circulation_lag=0.3,
+    side_suction_efficiency=1.0,
+)
+LAGGING = {"site": "wing_frame"} | EXTENDED.attributes(RIG_WING, WATER, FREQUENCY)
 BLADES = {"site": "wing_frame"} | QuasiSteady().attributes(RIG_WING, WATER, FREQUENCY)
 RECTANGLE = {"site": "wing_frame", "span": "0.25", "chord": "0.0625", "root_offset": "0.025"}
 # a wake clock that also resolves what a wing without servos does

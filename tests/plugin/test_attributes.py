@@ -37,8 +37,11 @@ LATTICE = {
     "wake_fade": ("1.5", "one number from 0 to 1"),
     "shedding_fraction": ("1", "one number from 0.01 to 0.99"),
     "tip_inset": ("0.6", "one number from 0 to 0.5 strips"),
+    "rate": ("second", "ramped, backward or second_order"),
     "suction_efficiency": ("inf", "one number from 0 to 10"),
     "suction_factor": ("3", "one number from 0 to 2"),
+    "side_suction_efficiency": ("11", "one number from 0 to 10"),
+    "circulation_lag": ("-0.1", "one number from 0 to 10 chords"),
     "threads": ("1e9", "a whole number from 1 to 64"),
 }
 BLADE = {

@@ -16,7 +16,9 @@ from flaprig.strokes.sun_tang import SunTangStroke
 from flaprig.wing import RIG_WING
 from tests.plugin.models import (
     BLADES,
+    EXTENDED,
     FREQUENCY,
+    LAGGING,
     LATTICE,
     SMALL,
     Array,
@@ -35,7 +37,11 @@ STROKE = SunTangStroke(
     pitch_duration=0.5,
 )
 CYCLES = 5
-AIRS = {"uvlm": (SMALL, LATTICE), "quasi_steady": (QuasiSteady(steps_per_cycle=40), BLADES)}
+AIRS = {
+    "uvlm": (SMALL, LATTICE),
+    "extended": (EXTENDED, LAGGING),
+    "quasi_steady": (QuasiSteady(steps_per_cycle=40), BLADES),
+}
 
 
 @cache

@@ -14,6 +14,7 @@ import pytest
 from tests.plugin.models import (
     BLADES,
     FREE,
+    LAGGING,
     OWN_MEMORY,
     Array,
     integration_state,
@@ -31,9 +32,9 @@ SPECS = {
 BEFORE, AFTER = 105, 81
 
 
-def model() -> mujoco.MjModel:
+def model(air: dict[str, str] = FREE) -> mujoco.MjModel:
     """The two hinges in a small lattice's water, swinging under gravity."""
-    return load(two_hinges(FREE, 'gravity="0 0 -9.81" timestep="0.004"'))
+    return load(two_hinges(air, 'gravity="0 0 -9.81" timestep="0.004"'))
 
 
 def swinging(m: mujoco.MjModel, steps: int) -> mujoco.MjData:
@@ -48,9 +49,10 @@ def saved(m: mujoco.MjModel, data: mujoco.MjData, spec: mujoco.mjtState) -> Arra
     return state
 
 
+@pytest.mark.parametrize("air", [FREE, LAGGING | {"wake_step": "0.025"}], ids=["plain", "lagging"])
 @pytest.mark.parametrize("name", SPECS)
-def test_restored_run_continues_bit_for_bit(name: str) -> None:
-    m, spec = model(), SPECS[name]
+def test_restored_run_continues_bit_for_bit(name: str, air: dict[str, str]) -> None:
+    m, spec = model(air), SPECS[name]
     data = swinging(m, BEFORE)
     state = saved(m, data, spec)
     mujoco.mj_step(m, data, nstep=AFTER)
@@ -60,7 +62,7 @@ def test_restored_run_continues_bit_for_bit(name: str) -> None:
         mujoco.mj_setState(m, other, state, spec)
         mujoco.mj_step(m, other, nstep=AFTER)
         np.testing.assert_array_equal(integration_state(m, other), expected)
-    assert len(wake_of(m, data, FREE)) > 20
+    assert len(wake_of(m, data, air)) > 20
     assert not data.warning.number.any()
 
 

@@ -75,6 +75,12 @@ Wrench Instance::buoyancy(const mjModel* m) const {
 // all of the load but the added mass on the joints' acceleration
 void Instance::find_load(const mjModel* m, const mjData* d) {
   const double* state = Memory{d->plugin_state + m->plugin_stateadr[id_]}.air();
+  if (air_->prepares()) {
+    // only advance() may change the state: until then the wake of this instant lives here
+    ahead_.assign(state, state + air_->state_size());
+    air_->prepare(ahead_.data(), motion_, m->opt.timestep);
+    state = ahead_.data();
+  }
   const Loads loads = air_->loads(state, motion_);
   const Motion relative = relative_to_wind(motion_, air_->wind_w());
   velocity_load_ = loads.base + loads.extra + buoyancy(m) +
@@ -99,6 +105,7 @@ void Instance::copy_stage(const Instance& other) {
   computed_ = other.computed_;
   motion_ = other.motion_;
   velocity_load_ = other.velocity_load_;
+  ahead_ = other.ahead_;
   jacobian_ = other.jacobian_;
 }
 
@@ -127,6 +134,7 @@ void Instance::advance(const mjModel* m, mjData* d, Memory memory) {
   const Twist rate = {joint_rate.linear + motion_.twist_rate.linear,
                       joint_rate.angular + motion_.twist_rate.angular};
   put(on_mount(m, air, rate), memory.mount());
+  if (air_->prepares()) std::copy(ahead_.begin(), ahead_.end(), memory.air());
   air_->advance(memory.air(), motion_, dt);
   if (!(m->opt.disableflags & mjDSBL_SENSOR)) sense(m, d, memory, false);
 }
