@@ -4,8 +4,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from flaprig.aero.batch import simulate_batch
-from flaprig.aero.coefficients import DICKINSON_1999, LEE_2016, Coefficients
-from flaprig.aero.models import UVLM, QuasiSteady
+from flaprig.aero.coefficients import DICKINSON_1999, HOVER_TANK, LEE_2016, Coefficients
+from flaprig.aero.models import UVLM, QuasiSteady, SuctionLaw
 from flaprig.aero.result import Result
 from flaprig.aero.simulate import simulate
 from flaprig.fluid import AIR, WATER, Fluid
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AIR",
     "DICKINSON_1999",
+    "HOVER_TANK",
     "LEE_2016",
     "RIG_WING",
     "UVLM",
@@ -34,6 +35,7 @@ __all__ = [
     "Result",
     "Rig",
     "SampledStroke",
+    "SuctionLaw",
     "SunTangStroke",
     "Tolerances",
     "Twin",

@@ -14,7 +14,7 @@ from flaprig.aero.models import UVLM, AirModel, QuasiSteady
 from flaprig.aero.result import Result
 from flaprig.commands.options import StrokeOptions
 from flaprig.commands.progress import progress
-from flaprig.commands.run_output import NAMES, Case, timed, write_wake
+from flaprig.commands.run_output import Case, timed, write_wake
 from flaprig.commands.twin import fly, write_motors
 from flaprig.report import style
 from flaprig.report.folder import Folder
@@ -96,7 +96,7 @@ def _run_all(cycles: int, folder: Folder) -> tuple[dict[str, Result], dict[str, 
     results: dict[str, Result] = {}
     summaries: dict[str, dict[str, Any]] = {}
     for model in MODELS:
-        case, name = _case(model, cycles), NAMES[model.plugin]
+        case, name = _case(model, cycles), model.label
         with progress(f"{name}, prescribed") as told:
             result = flaprig.simulate(
                 case.wing, case.stroke, model, case.fluid, cycles, progress=told

@@ -13,8 +13,8 @@ from typing import Annotated, Any, Literal
 from tyro.conf import arg
 
 from flaprig import _checks as check
-from flaprig.aero.coefficients import DICKINSON_1999, LEE_2016
-from flaprig.aero.models import UVLM, QuasiSteady
+from flaprig.aero.coefficients import DICKINSON_1999, HOVER_TANK, LEE_2016
+from flaprig.aero.models import SUCTION_EFFICIENCY, UVLM, QuasiSteady
 from flaprig.fluid import WATER, Fluid
 from flaprig.strokes import Stroke, SunTangStroke, load
 from flaprig.wing import PITCH_AXIS, RIG_WING, Wing
@@ -23,7 +23,12 @@ from flaprig.wing import PITCH_AXIS, RIG_WING, Wing
 _UVLM, _QUASI_STEADY = UVLM(), QuasiSteady()
 _STEPS = f"(default: {_UVLM.steps_per_cycle}, {_QUASI_STEADY.steps_per_cycle})"
 # options of the vortex lattice alone, by field of ModelOptions
-_LATTICE = ("chordwise", "spanwise", "suction_efficiency", "core", "wake_cycles", "threads")
+_LATTICE = ("chordwise", "spanwise", "core", "wake_cycles", "threads")
+_COEFFICIENTS = {
+    "dickinson1999": DICKINSON_1999,
+    "lee2016": LEE_2016,
+    "hover-tank": HOVER_TANK,
+}
 
 
 @dataclass(frozen=True)
@@ -150,7 +155,8 @@ class ModelOptions:
     """How the fluid is modelled.
 
     Attributes:
-        kind: the vortex lattice with its free wake, or quasi-steady blade elements.
+        kind: the paper's vortex lattice with its free wake; the lattice extended for separated
+            flow, or as accurate as its panels in attached flow; quasi-steady blade elements.
         steps_per_cycle: wake rows shed (uvlm) or loads reported (quasi-steady) in one cycle.
         chordwise: uvlm: panels along the chord.
         spanwise: uvlm: panels along the span.
@@ -162,15 +168,17 @@ class ModelOptions:
         coefficients: quasi-steady: set of lift and drag coefficients.
     """
 
-    kind: Annotated[Literal["uvlm", "quasi-steady"], arg(name="model")] = "uvlm"
+    kind: Annotated[
+        Literal["uvlm", "uvlm-extended", "uvlm-accurate", "quasi-steady"], arg(name="model")
+    ] = "uvlm"
     steps_per_cycle: Annotated[int | None, arg(metavar="INT", help_behavior_hint=_STEPS)] = None
     chordwise: int = _UVLM.chordwise
     spanwise: int = _UVLM.spanwise
-    suction_efficiency: float = _UVLM.suction_efficiency
+    suction_efficiency: float = SUCTION_EFFICIENCY
     core: float = _UVLM.core
     wake_cycles: float = _UVLM.wake_cycles
     threads: int = _UVLM.threads
-    coefficients: Literal["dickinson1999", "lee2016"] = "dickinson1999"
+    coefficients: Literal["dickinson1999", "lee2016", "hover-tank"] = "dickinson1999"
 
     def build(self) -> UVLM | QuasiSteady:
         """The model.
@@ -178,14 +186,23 @@ class ModelOptions:
         Raises:
             ValueError: a value out of range, or an option of the other model.
         """
-        if self.kind == "uvlm":
-            _refuse_changed(self, ["coefficients"], "with --model uvlm")
-            lattice = {name: getattr(self, name) for name in _LATTICE}
-            return UVLM(steps_per_cycle=self._steps(_UVLM.steps_per_cycle), **lattice)
+        if self.kind != "uvlm":
+            _refuse_changed(self, ["suction_efficiency"], f"with --model {self.kind}")
+        if self.kind != "quasi-steady":
+            return self._lattice()
         _refuse_changed(self, list(_LATTICE), "with --model quasi-steady")
-        named = {c.name: c for c in (DICKINSON_1999, LEE_2016)}
         steps = self._steps(_QUASI_STEADY.steps_per_cycle)
-        return QuasiSteady(named[self.coefficients], steps_per_cycle=steps)
+        return QuasiSteady(_COEFFICIENTS[self.coefficients], steps_per_cycle=steps)
+
+    def _lattice(self) -> UVLM:
+        _refuse_changed(self, ["coefficients"], f"with --model {self.kind}")
+        lattice = {name: getattr(self, name) for name in _LATTICE}
+        lattice["steps_per_cycle"] = self._steps(_UVLM.steps_per_cycle)
+        if self.kind == "uvlm-extended":
+            return UVLM.extended(**lattice)
+        if self.kind == "uvlm-accurate":
+            return UVLM.accurate(**lattice)
+        return UVLM(suction_efficiency=self.suction_efficiency, **lattice)
 
     def _steps(self, usual: int) -> int:
         return usual if self.steps_per_cycle is None else self.steps_per_cycle

@@ -29,8 +29,6 @@ from flaprig.wing import Wing
 # the instant of the wake's picture [cycles]: late in the first half of the third cycle, when the
 # wing stands free of what it shed before
 WAKE_INSTANT = 2.33
-# what people call the models
-NAMES = {"flaprig.uvlm": "UVLM", "flaprig.quasi_steady": "quasi-steady"}
 
 
 def write_histories(
@@ -65,7 +63,7 @@ class Case:
         """One line that says what is in a picture."""
         sweep, pitch = (np.degrees(a) for a in self._amplitudes)
         motion = f"f = {self.stroke.frequency:.4g} Hz, sweep ±{sweep:.4g}°, pitch ±{pitch:.4g}°"
-        return f"{NAMES[self.model.plugin]}, {motion}"
+        return f"{self.model.label}, {motion}"
 
     @property
     def _amplitudes(self) -> tuple[float, float]:
@@ -75,7 +73,7 @@ class Case:
         """What identifies the run in a summary, SI units and radians."""
         sweep, pitch = self._amplitudes
         return {
-            "model": NAMES[self.model.plugin],
+            "model": self.model.label,
             "cycles": self.cycles,
             "steps_per_cycle": self.model.steps_per_cycle,
             "frequency_Hz": self.stroke.frequency,
@@ -96,7 +94,7 @@ def write_pictures(folder: Folder, case: Case, result: Result) -> None:
     """forces.png, and wake.png where the model has a wake."""
     if not folder:
         return
-    curve = Curve(NAMES[case.model.plugin], result, style.VERMILION)
+    curve = Curve(case.model.label, result, style.VERMILION)
     folder.write("forces.png", lambda draft: draw_forces(draft, [curve], case.title))
     if isinstance(case.model, UVLM):
         write_wake(folder, case)

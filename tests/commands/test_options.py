@@ -17,6 +17,8 @@ def test_defaults_are_the_rig() -> None:
     assert FluidOptions().build() == WATER
     assert ModelOptions().build() == UVLM()
     assert ModelOptions("quasi-steady").build() == QuasiSteady()
+    assert ModelOptions("uvlm-extended").build() == UVLM.extended()
+    assert ModelOptions("uvlm-accurate", chordwise=8).build() == UVLM.accurate(chordwise=8)
 
 
 def test_every_option_arrives() -> None:
@@ -53,6 +55,8 @@ def test_stroke_file(tmp_path: Path) -> None:
         (ModelOptions("quasi-steady", wake_cycles=2.0), "--wake-cycles"),
         (ModelOptions("quasi-steady", suction_efficiency=0.1), "--suction-efficiency"),
         (ModelOptions("uvlm", coefficients="lee2016"), "--coefficients"),
+        (ModelOptions("uvlm-extended", suction_efficiency=0.1), "--suction-efficiency"),
+        (ModelOptions("uvlm-accurate", coefficients="lee2016"), "--coefficients"),
     ],
 )
 def test_options_that_would_be_ignored(options: WingOptions | ModelOptions, flag: str) -> None:
