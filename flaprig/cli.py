@@ -1,7 +1,7 @@
 """The command line: reads the arguments, runs one subcommand, turns errors into one sentence.
 
-Exit codes: 0 fine, 1 the run failed, 2 bad input, 130 stopped with Ctrl-C. `flaprig check` answers
-with its code: 0 feasible, 1 infeasible; there a run that failed is 3.
+Exit codes: 0 fine, 1 the run failed, 2 bad input, 130 stopped with Ctrl-C. `flaprig check` and
+`flaprig validate` answer with their code, 0 or 1; there a run that failed is 3.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Annotated, Any
 import tyro
 from tyro.conf import FlagCreatePairsOff, OmitArgPrefixes, OmitSubcommandPrefixes, subcommand
 
-from flaprig.commands import check, demo, export, reproduce, simulate, twin, view
+from flaprig.commands import check, demo, export, reproduce, simulate, twin, validate, view
 from flaprig.report.folder import Folder
 
 FAILED, BAD_INPUT, STOPPED = 1, 2, 130
@@ -30,6 +30,7 @@ Command = (
     | Annotated[check.Check, subcommand("check")]
     | Annotated[export.Export, subcommand("export")]
     | Annotated[reproduce.Reproduce, subcommand("reproduce")]
+    | Annotated[validate.Validate, subcommand("validate")]
     | Annotated[view.View, subcommand("view")]
     | Annotated[demo.Demo, subcommand("demo")]
 )
@@ -39,9 +40,13 @@ _RUN: dict[type, Callable[[Any, Folder], int | None]] = {
     check.Check: check.run,
     export.Export: export.run,
     reproduce.Reproduce: reproduce.run,
+    validate.Validate: validate.run,
+    validate.OneCase: validate.run,
     view.View: view.run,
     demo.Demo: demo.run,
 }
+# commands whose exit code is an answer
+_ANSWERS = (check.Check, validate.Validate, validate.OneCase)
 _CONFIG = (OmitArgPrefixes, OmitSubcommandPrefixes, FlagCreatePairsOff)
 _ABOUT = "The digital twin of a robotic flapping wing. Angles are in degrees, all else in SI units."
 
@@ -78,28 +83,34 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(args: Any, folder: Folder) -> int:
     """Run the subcommand; expected errors become a sentence and an exit code."""
     try:
-        code = _RUN[type(args)](args, folder)
+        code = next(f for kind, f in _RUN.items() if isinstance(args, kind))(args, folder)
         sys.stdout.flush()
     except BrokenPipeError:
         raise
     except (ValueError, OSError) as error:
         return _say(_sentence(error), BAD_INPUT)
     except (ArithmeticError, ImportError, RuntimeError) as error:
-        return _say(_sentence(error), NO_ANSWER if isinstance(args, check.Check) else FAILED)
+        return _say(_sentence(error), NO_ANSWER if isinstance(args, _ANSWERS) else FAILED)
     return code or 0
 
 
 def _parse(argv: list[str]) -> Any:
-    """The arguments of one subcommand.
+    """The arguments of one subcommand; a case of `validate` has options of its own.
 
     Raises:
         ValueError: what tyro says about wrong arguments, as one sentence.
         SystemExit: help was asked for and has been printed.
     """
+    if argv[:1] == ["validate"]:
+        return validate.parse(argv[1:], _ask)
+    return _ask(Command, "flaprig", argv, _ABOUT)
+
+
+def _ask(kind: Any, program: str, argv: list[str], about: str | None = None) -> Any:
     complaint = io.StringIO()
     try:
         with redirect_stderr(complaint):
-            return tyro.cli(Command, prog="flaprig", description=_ABOUT, args=argv, config=_CONFIG)
+            return tyro.cli(kind, prog=program, description=about, args=argv, config=_CONFIG)
     except SystemExit as stop:
         if stop.code in (0, None):
             raise

@@ -19,10 +19,11 @@ from numpy.typing import NDArray
 from flaprig import _checks as check
 from flaprig import plate
 from flaprig._paths import RIG_XML
-from flaprig.aero.models import UVLM, QuasiSteady
+from flaprig.aero.models import SWEEP_AMPLITUDE, UVLM, QuasiSteady
 from flaprig.fluid import WATER, Fluid
 from flaprig.motors import RIG_MOTORS, Motor, Motors
 from flaprig.native import library
+from flaprig.strokes import Stroke
 from flaprig.wing import RIG_WING, Wing
 
 # stroke frequency of the rig [Hz]: paper section 2.2
@@ -111,9 +112,11 @@ class Rig:
         motors: the sweep and the pitch servo.
         model: the model of the fluid's forces, UVLM or QuasiSteady.
         frequency: of the stroke that the rig is to run, in [Hz]; sets the clock of the wake.
+        sweep_amplitude: half of its peak-to-peak sweep in [rad]; with the frequency it sets the
+            Reynolds number, for models of the air that ask for one.
 
     Raises:
-        ValueError: an attribute of the wrong type, or a frequency that is not positive.
+        ValueError: an attribute of the wrong type, or a number that is not positive.
     """
 
     path: Path = RIG_XML
@@ -122,6 +125,7 @@ class Rig:
     motors: Motors = RIG_MOTORS
     model: UVLM | QuasiSteady = UVLM()
     frequency: float = RIG_FREQUENCY
+    sweep_amplitude: float = SWEEP_AMPLITUDE
 
     def __post_init__(self) -> None:
         kinds = {"path": Path, "wing": Wing, "fluid": Fluid, "motors": Motors}
@@ -130,9 +134,9 @@ class Rig:
                 raise check.fail("Rig", name, f"a {kind.__name__}", getattr(self, name))
         if not isinstance(self.model, UVLM | QuasiSteady):
             raise check.fail("Rig", "model", "a UVLM or a QuasiSteady", self.model)
-        object.__setattr__(
-            self, "frequency", check.positive("Rig", "frequency", self.frequency, "Hz")
-        )
+        for name, unit in (("frequency", "Hz"), ("sweep_amplitude", "rad")):
+            number = check.positive("Rig", name, getattr(self, name), unit)
+            object.__setattr__(self, name, number)
 
     @classmethod
     def load(cls, path: str | Path = RIG_XML) -> Rig:
@@ -147,16 +151,20 @@ class Rig:
         return cls(path=path)
 
     def with_(self, **changes: Any) -> Rig:
-        """A new rig with wing, fluid, motors, model or frequency changed.
+        """A new rig with wing, fluid, motors, model, frequency or sweep_amplitude changed.
 
         Raises:
             ValueError: a name that a rig does not have, or a bad value.
         """
-        allowed = ("wing", "fluid", "motors", "model", "frequency")
+        allowed = ("wing", "fluid", "motors", "model", "frequency", "sweep_amplitude")
         for name in changes:
             if name not in allowed:
                 raise check.fail("Rig.with_", "argument", f"one of {', '.join(allowed)}", name)
         return replace(self, **changes)
+
+    def running(self, stroke: Stroke) -> Rig:
+        """The rig set to a stroke's frequency and sweep amplitude."""
+        return self.with_(frequency=stroke.frequency, sweep_amplitude=stroke.sweep_amplitude)
 
     def spec(self) -> mujoco.MjSpec:
         """The rig as an editable MuJoCo specification, not yet compiled.
@@ -284,7 +292,9 @@ def _fill_fluid(spec: mujoco.MjSpec, rig: Rig) -> None:
     instance = next(plugin for plugin in spec.plugins if plugin.name == AIR)
     kept = {key: value for key, value in instance.config.items() if key in _KEPT}
     instance.plugin_name = rig.model.plugin
-    instance.config = kept | rig.model.attributes(rig.wing, rig.fluid, rig.frequency)
+    instance.config = kept | rig.model.attributes(
+        rig.wing, rig.fluid, rig.frequency, rig.sweep_amplitude
+    )
     for sensor in spec.sensors:
         if sensor.type == mujoco.mjtSensor.mjSENS_PLUGIN:
             sensor.plugin.plugin_name = rig.model.plugin

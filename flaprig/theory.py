@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import quad
 from scipy.special import hankel2
 
 from flaprig import _checks as check
@@ -25,6 +26,28 @@ def wagner(distance: ArrayLike) -> Array:
     """
     s = _not_negative("wagner", "distance", distance)
     return np.asarray(1.0 - 0.165 * np.exp(-0.0455 * s) - 0.335 * np.exp(-0.3 * s))
+
+
+def wagner_exact(distance: float) -> float:
+    """Wagner's function itself, `distance` semichords after a sudden start.
+
+    I. E. Garrick, On some reciprocal relations in the theory of nonstationary flows, NACA Report
+    629 (1938): the sine transform of the real part of Theodorsen's function over k, here less its
+    limit of 1/2, so that the integrand falls with k^3.
+
+    Raises:
+        ValueError: a distance that is not a number from 0 to 1e4.
+    """
+    s = check.in_range("wagner_exact", "distance", distance, 0.0, 1e4)
+    if s == 0.0:
+        return 0.5
+
+    def rest(k: float) -> float:
+        return float((theodorsen(k).real - 0.5) / k)
+
+    near = quad(lambda k: rest(k) * np.sin(k * s), 0.0, 1.0, limit=2000)[0]
+    far = quad(rest, 1.0, np.inf, weight="sin", wvar=s, limit=2000)[0]
+    return float(0.5 + 2.0 / np.pi * (near + far))
 
 
 def theodorsen(reduced_frequency: ArrayLike) -> NDArray[np.complex128]:
@@ -70,6 +93,16 @@ def flat_plate_suction_per_span(
     """
     normal_speed = np.multiply(speed, np.sin(angle))
     return np.asarray(np.pi * density * np.multiply(chord, np.square(normal_speed)))
+
+
+def side_suction_per_chord(density: float, width: ArrayLike, normal_speed: ArrayLike) -> Array:
+    """Suction around one side of a plate that moves along its normal, per length of that side.
+
+    pi/4 rho w^2 b in [N/m]: the edge's share of cross flow past a plate of width b, which is all
+    there is on a slender wing; J. E. Lamar, NASA TR R-428 (1974), makes it the side edge's vortex
+    lift. Density in [kg/m3], width in [m], speed in [m/s].
+    """
+    return np.asarray(np.pi / 4.0 * density * np.multiply(width, np.square(normal_speed)))
 
 
 def helmbold_lift_slope(aspect_ratio: ArrayLike) -> Array:

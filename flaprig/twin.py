@@ -107,7 +107,7 @@ class Twin:
         model = self.compile(stroke)
         points, control = self.commands(model, stroke, cycles)
         log = drive(model, at_rest(model, points.motion), control, progress)
-        rig = self.rig.with_(frequency=stroke.frequency)
+        rig = self.rig.running(stroke)
         return gather(rig, model, stroke, points, control, log, cycles)
 
     def commands(
@@ -153,7 +153,7 @@ class Twin:
 
     def compile(self, stroke: Stroke) -> mujoco.MjModel:
         """The rig's model with the time step and the wake's clock for a stroke."""
-        model = self.rig.with_(frequency=stroke.frequency).compile()
+        model = self.rig.running(stroke).compile()
         model.opt.timestep = 1.0 / (stroke.frequency * self.steps_per_cycle(stroke))
         # the log reads torques as this integrator makes them
         model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST

@@ -16,8 +16,8 @@ from flaprig.wing import Wing
 # other defaults below: a calibration on one case, not a prediction (docs/model.md)
 SUCTION_EFFICIENCY = 0.70
 # of the extended lattice, fitted as docs/validation.md says: travel in chords, and the law
-EXTENDED_LAG = 0.125
-EXTENDED_SUCTION = SuctionLaw(slope=0.4, onset=4000.0)
+EXTENDED_LAG = 0.15
+EXTENDED_SUCTION = SuctionLaw(slope=0.36, onset=3000.0)
 
 
 class Rate(StrEnum):
@@ -48,7 +48,7 @@ class UVLM:
             the last free row (1/3: paper and Ramesh 2014; 1/4: the more accurate one).
         tip_inset: how far the lattice's ends lie inside the tips, in strips (Hough 1973).
         side_suction_efficiency: the same of the suction around the tips, as a share of its exact
-            value (Lamb 1974); 0, the paper's model, has none.
+            value (Lamar 1974); 0, the paper's model, has none.
         circulation_lag: travel in chords over which the circulation that the loads see follows
             the bound one, as a leading-edge vortex builds up; 0, the paper's model, has no lag.
         rate: how dG/dt is told from the last steps: "ramped", smooth but a step and a half late;
@@ -100,8 +100,8 @@ class UVLM:
     def extended(cls, **changes: Any) -> Self:
         """The lattice for separated flow: three additions to the paper's model (docs/model.md).
 
-        The loads' circulation lags by an eighth of a chord of travel, the tips have the suction
-        of theory (Lamb 1974), and the leading edge's depends on the Reynolds number. Lag and law
+        The loads' circulation lags by some of a chord of travel, the tips have the suction of
+        theory (Lamar 1974), and the leading edge's depends on the Reynolds number. Lag and law
         were fitted to 26 measured strokes at Re 3000 to 5000 and the paper's sinusoid (Re 8700).
 
         Args:

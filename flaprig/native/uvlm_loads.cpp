@@ -71,7 +71,9 @@ void Uvlm::side_load(const double* g, Wrench& load) const {
   }
 }
 
-// eq. 6 is a force per unit span: the strip's width completes it
+// eq. 6 is a force per unit length of the edge. With n = x cos L the distance to an edge of sweep
+// L, the singularity's strength is G^2 / (16 dx cos L), and a strip's edge is as long as its width
+// over cos L.
 void Uvlm::weigh_suction(const Planform& planform) {
   for (int j = 0; j < lattice_.spanwise(); ++j) {
     const Vec3 a = lattice_.vertex(0, j), b = lattice_.vertex(0, j + 1);
@@ -81,11 +83,11 @@ void Uvlm::weigh_suction(const Planform& planform) {
     const double cos_sweep = 1 / std::sqrt(1 + slope * slope);
     const double panel = s.chord / lattice_.chordwise();
     suction_weight_.push_back(settings_.suction_factor * settings_.suction_efficiency * M_PI / 16 *
-                              density_ / (panel * cos_sweep) * (b.y - a.y));
+                              density_ / (panel * cos_sweep) * (b.y - a.y) / cos_sweep);
   }
 }
 
-// eq. 6 turned by a right angle: per unit chord, over the width of a strip (Lamb 1974). As at the
+// eq. 6 turned by a right angle: per unit chord, over the width of a strip (Lamar 1974). As at the
 // leading edge the outermost ring returns pi/4 of the suction in the limit, whatever the inset, and
 // here the factor is always in.
 void Uvlm::weigh_sides(const Planform& planform) {

@@ -36,7 +36,7 @@ def track_physics(settings: TrackSettings) -> RigPhysics:
     Raises:
         ValueError: the stroke leaves the joints' stops.
     """
-    rig: Rig = settings.rig.with_(frequency=settings.stroke.frequency)
+    rig: Rig = settings.rig.running(settings.stroke)
     model = rig.compile()
     model.opt.timestep = settings.time_step
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST

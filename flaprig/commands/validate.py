@@ -1,0 +1,172 @@
+"""`flaprig validate`: the model of the air beside things that know the answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, make_dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+from rich.console import Console
+from tyro.conf import Positional, arg
+
+import flaprig
+from flaprig import _checks as check
+from flaprig.commands.progress import progress
+from flaprig.commands.run_output import timed
+from flaprig.report.folder import Folder
+from flaprig.report.numbers import as_json
+from flaprig.report.validation_page import page
+from flaprig.report.validation_table import print_cases, print_outcome
+from flaprig.validation.case import Case
+from flaprig.validation.outcome import Outcome
+from flaprig.validation.suite import CASES, case_named
+
+# exit codes
+WITHIN, OUTSIDE = 0, 1
+# where the page goes inside of its folder
+PAGE, PICTURES = "validation.md", "images/validation"
+
+_OUT = arg(metavar="DIR", help_behavior_hint="(optional)")
+
+
+@dataclass(frozen=True)
+class Validate:
+    """Hold the model of the air against things that know the answer.
+
+    Without a name the cases are listed. One name alone takes the case's own options: `flaprig
+    validate katz-plotkin --help` shows them. Exit status: 0 every row is within its tolerance, 1
+    some are not, 2 bad input, 3 a case failed.
+
+    Attributes:
+        case: names of cases.
+        all: every case; writes the page validation.md with its pictures into --out, or into docs/
+            of a clone.
+        json: print exactly one JSON object and nothing else.
+        out: folder for a picture per case and summary.json.
+    """
+
+    case: Positional[tuple[str, ...]] = ()
+    all: bool = False
+    json: bool = False
+    out: Annotated[Path | None, _OUT] = None
+
+
+@dataclass(frozen=True)
+class OneCase:
+    """One case with its own options.
+
+    Attributes:
+        json: print exactly one JSON object and nothing else.
+        out: folder for its picture and summary.json.
+    """
+
+    json: bool = False
+    out: Annotated[Path | None, _OUT] = None
+
+    @property
+    def chosen(self) -> Case:
+        """The case with its parameters."""
+        return getattr(self, "parameters")  # noqa: B009  # the field of the subclass
+
+
+def one_case(name: str) -> type[OneCase]:
+    """OneCase with the parameters of that case. ValueError when there is no such case."""
+    kind = case_named(name)
+    parameters = ("parameters", kind, field(default_factory=kind))
+    made = make_dataclass(kind.__name__, [parameters], bases=(OneCase,), frozen=True)
+    made.__doc__ = f"{kind.__doc__}\n\n{OneCase.__doc__}"
+    return made
+
+
+def parse(words: Sequence[str], ask: Callable[[type, str, list[str]], Any]) -> Any:
+    """Validate, or OneCase where one name comes first and no other.
+
+    Args:
+        words: after `validate`.
+        ask: reads arguments into a type: type, program, words.
+
+    Raises:
+        ValueError: wrong arguments.
+    """
+    names = [word for word in words if not word.startswith("-")]
+    alone = (
+        bool(words)
+        and not words[0].startswith("-")
+        and (len(words) == 1 or words[1].startswith("-"))
+    )
+    if not alone or "--all" in words:
+        return ask(Validate, "flaprig validate", list(words))
+    return ask(one_case(names[0]), f"flaprig validate {names[0]}", list(words[1:]))
+
+
+def run(args: Validate | OneCase, folder: Folder) -> int:
+    """Run the cases, write, tell; 0 when every row is within its tolerance.
+
+    Raises:
+        ValueError: bad input.
+        OSError: a file cannot be written.
+    """
+    if isinstance(args, OneCase):
+        return _run([args.chosen], args.json, folder)
+    if args.all and args.case:
+        raise check.fail("validate", "--all", "given without names", " ".join(args.case))
+    names = list(CASES) if args.all else list(dict.fromkeys(args.case))
+    cases = [case_named(name)() for name in names]
+    if not cases:
+        print_cases(Console(), CASES)
+        return WITHIN
+    if args.all and not folder:
+        folder.path = _docs()
+    return _run(cases, args.json, folder, everything=args.all)
+
+
+def _docs() -> Path:
+    """The folder docs/ of the clone; a wheel carries none."""
+    docs = Path(flaprig.__file__).resolve().parents[1] / "docs"
+    if not docs.is_dir():
+        raise ValueError("validate: --out must be given, since docs/ is not here")
+    return docs
+
+
+def _run(cases: Sequence[Case], as_object: bool, folder: Folder, everything: bool = False) -> int:
+    folder.create()
+    if folder and everything:
+        assert folder.path is not None
+        (folder.path / PICTURES).mkdir(parents=True, exist_ok=True)
+    console, found = Console(), []
+    for case in cases:
+        with timed() as spent, progress(case.name) as told:
+            outcome = case.run(told)
+        found.append((case, outcome, spent["wall_time_s"]))
+        if outcome.draw is not None:
+            place = f"{PICTURES}/{case.name}.png" if everything else f"{case.name}.png"
+            folder.write(place, outcome.draw)
+        if not as_object:
+            print_outcome(console, case, outcome, spent["wall_time_s"])
+    summary = _summary(found)
+    if folder and everything:
+        folder.write_text(PAGE, page(found, PICTURES))
+    elif folder:
+        folder.write_text("summary.json", as_json(summary) + "\n")
+    if as_object:
+        print(as_json(summary))
+    elif folder:
+        written = ", ".join(path.name for path in folder.written)
+        console.print(f"Written to {folder.path}: {written}", highlight=False, markup=False)
+    return OUTSIDE if any(outcome.missed for _, outcome, _ in found) else WITHIN
+
+
+def _summary(found: Sequence[tuple[Case, Outcome, float]]) -> dict[str, Any]:
+    """One case's numbers on top; a list of several."""
+    parts = [
+        {
+            "case": case.name,
+            **outcome.data,
+            "rows": [row.summary() for row in outcome.rows],
+            "notes": list(outcome.notes),
+            "wall_time_s": spent,
+        }
+        for case, outcome, spent in found
+    ]
+    return {"command": "validate", **(parts[0] if len(parts) == 1 else {"cases": parts})}
