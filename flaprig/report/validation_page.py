@@ -8,7 +8,7 @@ from importlib.metadata import version
 
 from flaprig.report.validation_table import cells
 from flaprig.validation.case import Case
-from flaprig.validation.outcome import Outcome, Row, Verdict
+from flaprig.validation.outcome import Outcome, Row, Table, Verdict
 
 Found = Sequence[tuple[Case, Outcome, float]]
 
@@ -61,11 +61,19 @@ def _section(case: Case, outcome: Outcome, seconds: float, pictures: str) -> str
             *(_row(row) for row in outcome.rows),
             "",
         ]
+    for told in outcome.tables:
+        lines += _table(told)
     lines += [f"{note}\n" for note in outcome.notes]
     if outcome.draw is not None:
         lines.append(f"![{case.name}]({pictures}/{case.name}.png)\n")
     lines.append(f"`flaprig validate {case.name}`, {seconds:.1f} s.\n")
     return "\n".join(lines)
+
+
+def _table(told: Table) -> list[str]:
+    rule = ["---"] * len(told.header)
+    cells = [told.header, rule, *told.lines]
+    return [f"{told.title}:\n", *(f"| {' | '.join(line)} |" for line in cells), ""]
 
 
 def _row(row: Row) -> str:

@@ -7,10 +7,12 @@ from collections.abc import Mapping
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from flaprig.validation.case import Case
 from flaprig.validation.outcome import Outcome, Row, Verdict
+from flaprig.validation.outcome import Table as Told
 
 _STYLE = {Verdict.WITHIN: "green", Verdict.OUTSIDE: "bold red", Verdict.TOLD: ""}
 
@@ -37,10 +39,21 @@ def print_outcome(console: Console, case: Case, outcome: Outcome, seconds: float
     table.add_column("", no_wrap=True)
     for row in outcome.rows:
         verdict = f"[{_STYLE[row.verdict]}]{row.verdict.value}[/]" if row.verdict.value else ""
-        table.add_row(row.quantity, *cells(row), row.source, verdict)
+        table.add_row(escape(row.quantity), *cells(row), escape(row.source), verdict)
     console.print(table)
+    for more in outcome.tables:
+        _print_table(console, more)
     for note in outcome.notes:
         console.print(note, highlight=False, markup=False, style="dim")
+
+
+def _print_table(console: Console, told: Told) -> None:
+    table = Table(title=escape(told.title), title_justify="left", box=SIMPLE_HEAD)
+    for number, heading in enumerate(told.header):
+        table.add_column(escape(heading), justify="right" if number else "left")
+    for line in told.lines:
+        table.add_row(*(escape(cell) for cell in line))
+    console.print(table)
 
 
 def cells(row: Row) -> tuple[str, str, str]:

@@ -17,7 +17,7 @@ from flaprig.aero.models import UVLM
 from flaprig.aero.simulate import simulate
 from flaprig.report import style
 from flaprig.validation.case import on_all_cores
-from flaprig.validation.outcome import Outcome, Row
+from flaprig.validation.outcome import Outcome, Row, Table
 from flaprig.validation.paper import SINUSOID
 from flaprig.wing import RIG_WING
 
@@ -38,6 +38,12 @@ QUANTITIES = {
 RATIO = 1.5
 # Roache's factor of safety for three grids
 SAFETY = 1.25
+NOTES = (
+    "An order is of the last three values, 1.5 apart; none where they do not converge one way, "
+    "since the spread of a free wake is larger than their difference.",
+)
+
+Found = dict[UVLM, dict[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -117,9 +123,7 @@ class Convergence:
         # the longest first, so that the cores end together
         models.sort(key=_work, reverse=True)
         found = dict(zip(models, on_all_cores(self._summary, models, progress), strict=True))
-        rows = [
-            row for key, words in QUANTITIES.items() for row in _rows(key, words, varied, found)
-        ]
+        rows = _rows(varied, found)
         data = {
             sweep.name: {
                 "values": sweep.values,
@@ -127,7 +131,10 @@ class Convergence:
             }
             for sweep in varied
         }
-        return Outcome(tuple(rows), data, lambda path: _draw(path, varied, found, base))
+        tables = (_table(varied, found),)
+        return Outcome(
+            tuple(rows), data, lambda path: _draw(path, varied, found, base), NOTES, tables
+        )
 
     def _summary(self, model: UVLM) -> dict[str, Any]:
         return simulate(RIG_WING, SINUSOID, model, cycles=self.cycles).summary()
@@ -159,30 +166,43 @@ def left_to_gain(values: Sequence[float]) -> float:
     return SAFETY * abs(limit - middle)
 
 
-def _rows(
-    key: str, words: str, varied: Sequence[Sweep], found: dict[UVLM, dict[str, Any]]
-) -> list[Row]:
-    value = found[UVLM()][key]
-    refined = {s.name: [found[m][key] for m in s.models] for s in varied if s.refines}
-    parts = [left_to_gain(values) for values in refined.values()]
-    # a peak has none, nor has a mean over one cycle
-    spread = found[UVLM()].get(f"{key}_spread", math.nan)
-    total = math.sqrt(sum(part**2 for part in parts) + np.nan_to_num(spread) ** 2)
-    rows = [Row(f"{words}, default", value, spread=spread)]
-    for (name, values), part in zip(refined.items(), parts, strict=True):
-        rows.append(Row(f"{words}, order in {name}", order(values)))
-        rows.append(Row(f"{words}, still to gain in {name} [%]", 100.0 * part / abs(value)))
-    for sweep in varied:
-        if not sweep.refines:
-            range_ = np.ptp([found[m][key] for m in sweep.models])
-            rows.append(Row(f"{words}, range over {sweep.name} [%]", 100.0 * range_ / abs(value)))
-    rows.append(Row(f"{words}, numerical uncertainty [%]", 100.0 * total / abs(value)))
+def _rows(varied: Sequence[Sweep], found: Found) -> list[Row]:
+    """The uncertainty of each quantity."""
+    rows = []
+    for key, words in QUANTITIES.items():
+        value = found[UVLM()][key]
+        parts = [left_to_gain([found[m][key] for m in s.models]) for s in varied if s.refines]
+        # a peak has no spread, nor has a mean over one cycle
+        spread = np.nan_to_num(found[UVLM()].get(f"{key}_spread", 0.0))
+        total = math.sqrt(sum(part**2 for part in parts) + spread**2)
+        rows.append(Row(f"{words}, numerical uncertainty [%]", 100.0 * total / abs(value)))
     return rows
 
 
-def _draw(
-    path: Path, varied: Sequence[Sweep], found: dict[UVLM, dict[str, Any]], base: UVLM
-) -> None:
+def _table(varied: Sequence[Sweep], found: Found) -> Table:
+    """Orders and what is left to gain, and the range over every setting."""
+    refined = [s for s in varied if s.refines]
+    header = ["quantity", "default"]
+    header += [f"{word} in {s.name}" for s in refined for word in ("order", "left to gain")]
+    header += [f"range over {s.name}" for s in varied if not s.refines]
+    lines = []
+    for key, words in QUANTITIES.items():
+        value = found[UVLM()][key]
+        line = [words, f"{value:.4g}"]
+        for sweep in refined:
+            values = [found[m][key] for m in sweep.models]
+            seen = order(values)
+            line.append("none" if math.isnan(seen) else f"{seen:.1f}")
+            line.append(f"{100.0 * left_to_gain(values) / abs(value):.2f} %")
+        for sweep in varied:
+            if not sweep.refines:
+                values = [found[m][key] for m in sweep.models]
+                line.append(f"{100.0 * np.ptp(values) / abs(value):.1f} %")
+        lines.append(tuple(line))
+    return Table("Every setting around the default", tuple(header), tuple(lines))
+
+
+def _draw(path: Path, varied: Sequence[Sweep], found: Found, base: UVLM) -> None:
     with style.figure(9.0, 5.2) as drawing:
         grid = drawing.subplots(2, 3, sharey=True)
         for axes, sweep in zip(grid.flat, varied, strict=True):

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
@@ -37,7 +38,7 @@ class KatzPlotkin:
     freely. The first step is an impulse and no number to compare.
 
     Attributes:
-        aspect_ratio: of the rectangle; 4 and 12 have a reference.
+        aspect_ratio: of the rectangle; 4 and 12 have a reference, and the default shows both.
         angle_deg: angle of attack.
         chordwise: panels along the chord.
         semi_panels: panels on the semi-span.
@@ -60,15 +61,11 @@ class KatzPlotkin:
     def run(self, progress: Progress | None = None) -> Outcome:
         """Run the case. ValueError for a parameter out of range."""
         self._check()
-        passed, lift, drag = self._histories(progress)
-        known = self._reference()
-        at = np.array(PASSED)
-        ours = np.interp(at, passed, lift)
-        rows = [
-            Row(f"C_L at Ut/c = {where:g}", value, theirs, SOURCE if theirs else "", theirs and 1.0)
-            for where, value, theirs in zip(at, ours, known or [None] * at.size, strict=True)
-            if where <= passed[-1]
-        ]
+        # by default every wing that has a reference
+        ratios = list(PROGRAM_16) if self == KatzPlotkin() else [self.aspect_ratio]
+        flown = {ratio: replace(self, aspect_ratio=ratio)._histories(progress) for ratio in ratios}
+        rows = [row for ratio in ratios for row in self._rows(ratio, *flown[ratio][:2])]
+        passed, lift, drag = flown[self.aspect_ratio]
         data = {
             "aspect_ratio": self.aspect_ratio,
             "angle_of_attack_rad": math.radians(self.angle_deg),
@@ -76,7 +73,22 @@ class KatzPlotkin:
             "cl": lift,
             "cd": drag,
         }
-        return Outcome(tuple(rows), data, lambda path: self._draw(path, passed, lift), NOTES)
+        return Outcome(tuple(rows), data, lambda path: self._draw(path, flown), NOTES)
+
+    def _rows(self, ratio: float, passed: Array, lift: Array) -> list[Row]:
+        known = self._reference(ratio)
+        ours = np.interp(PASSED, passed, lift)
+        return [
+            Row(
+                f"AR {ratio:g}, C_L at Ut/c = {where:g}",
+                float(value),
+                theirs,
+                SOURCE if theirs else "",
+                1.0 if theirs else None,
+            )
+            for where, value, theirs in zip(PASSED, ours, known or [None] * 9, strict=True)
+            if where <= passed[-1]
+        ]
 
     def _check(self) -> None:
         check.in_range(self.name, "aspect_ratio", self.aspect_ratio, 0.1, 1000.0)
@@ -86,10 +98,10 @@ class KatzPlotkin:
         check.in_range(self.name, "distance", self.distance, 2.0 * self.step, 100.0, "chords")
         check.whole(self.name, "semi_panels", self.semi_panels, 1, 64)
 
-    def _reference(self) -> tuple[float, ...] | None:
+    def _reference(self, ratio: float) -> tuple[float, ...] | None:
         """What their program gives, if these are its settings."""
-        defaults = KatzPlotkin(self.aspect_ratio, distance=self.distance)
-        return PROGRAM_16.get(float(self.aspect_ratio)) if self == defaults else None
+        theirs = KatzPlotkin(self.aspect_ratio, distance=self.distance)
+        return PROGRAM_16.get(float(ratio)) if self == theirs else None
 
     def _histories(self, progress: Progress | None) -> tuple[Array, Array, Array]:
         """Chords travelled, C_L and C_D after each step but the first."""
@@ -110,16 +122,20 @@ class KatzPlotkin:
         lift = lift_of(loads, motion) / pressure
         return self.step * np.arange(1.0, count), lift[1:], lift[1:] * math.tan(angle)
 
-    def _draw(self, path: Path, passed: Array, lift: Array) -> None:
+    def _draw(self, path: Path, flown: Mapping[float, tuple[Array, Array, Array]]) -> None:
         with style.figure(6.2, 3.6) as drawing:
             axes = drawing.subplots()
-            axes.plot(passed, lift, color=style.VERMILION, label="flaprig")
-            known = self._reference()
-            if known:
-                axes.plot(PASSED, known, "o", color=style.INK, ms=4.5, label=SOURCE)
-            axes.set(xlabel="chords travelled $Ut/c$", ylabel="$C_L$", xlim=(0.0, passed[-1]))
-            axes.set_title(f"Sudden acceleration, AR {self.aspect_ratio:g}, {self.angle_deg:g}°")
-            axes.legend()
+            for (ratio, (passed, lift, _)), colour in zip(
+                flown.items(), style.SERIES, strict=False
+            ):
+                axes.plot(passed, lift, color=colour, label=f"flaprig, AR {ratio:g}")
+                known = self._reference(ratio)
+                if known:
+                    label = f"{SOURCE}, AR {ratio:g}"
+                    axes.plot(PASSED, known, "o", color=colour, ms=4.5, label=label)
+            axes.set(xlabel="chords travelled $Ut/c$", ylabel="$C_L$", xlim=(0.0, self.distance))
+            axes.set_title(f"Sudden acceleration, {self.angle_deg:g}°")
+            axes.legend(fontsize=8.0)
             style.save(drawing, path)
 
 

@@ -19,7 +19,7 @@ from flaprig.aero.models import UVLM, SuctionLaw
 from flaprig.aero.uvlm import EXTENDED_SUCTION
 from flaprig.validation.case import on_all_cores
 from flaprig.validation.forces import Forces, Parts, measured_forces, paper_forces
-from flaprig.validation.measured import BIAS, RMS
+from flaprig.validation.measured import BIAS, RMS, SOURCE, WORDS
 from flaprig.validation.measured_file import Measured, read
 from flaprig.validation.measured_score import KEYS
 from flaprig.validation.outcome import Outcome, Row
@@ -134,12 +134,12 @@ NOTES = (
 def _rows(errors: Array) -> list[Row]:
     rows = []
     for first, words in ((0, "published"), (3, "measured alike")):
-        for k, key in enumerate(KEYS):
+        for k, key in enumerate(WORDS):
             column = errors[:, first + k]
             rms, bias = float(np.sqrt(np.mean(column**2))), float(column.mean())
             line = f"left out, {words}, {key}"
-            rows.append(Row(f"{line} rms [%]", rms, 0.0, "Li & Nabawy", RMS[k], False))
-            rows.append(Row(f"{line} bias [%]", bias, 0.0, "Li & Nabawy", BIAS[k], False))
+            rows.append(Row(f"{line} rms [%]", rms, 0.0, SOURCE, RMS[k], False))
+            rows.append(Row(f"{line} bias [%]", bias, 0.0, SOURCE, BIAS[k], False))
     return rows
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
@@ -20,18 +20,24 @@ from flaprig.validation.measured_file import Measured, read
 from flaprig.validation.measured_picture import draw_measured
 from flaprig.validation.measured_score import KEYS, Score, score
 from flaprig.validation.measuring_chain import DELAY, MOST_DELAY, delay
-from flaprig.validation.outcome import Outcome, Row
+from flaprig.validation.outcome import Outcome, Row, Table
 
 Array = NDArray[np.float64]
 
-Name = Literal["uvlm-extended", "uvlm", "uvlm-no-suction", "quasi-steady", "hover-tank"]
+Name = Literal[
+    "uvlm-extended", "uvlm", "uvlm-no-suction", "quasi-steady", "hover-tank", "translation"
+]
 MODELS: dict[str, AirModel] = {
     "uvlm-extended": UVLM.extended(),
     "uvlm": UVLM(),
     "uvlm-no-suction": UVLM(suction_efficiency=0.0),
     "quasi-steady": QuasiSteady(),
     "hover-tank": QuasiSteady(HOVER_TANK),
+    # what a rescaled quasi-steady model in the literature is
+    "translation": QuasiSteady(rotation=False, added_mass=False),
 }
+SOURCE = "Li & Nabawy 2022"
+WORDS = ("C_L", "C_D", "L/D")
 # what is asked of the root mean square and of the bias of the means, in percent
 RMS, BIAS = (11.0, 17.0, 12.0), (5.0, 8.0, 8.0)
 # Reynolds numbers above this are told apart: the forces are larger there
@@ -56,7 +62,13 @@ class MeasuredStrokes:
 
     cases: Annotated[Path | None, arg(metavar="FILE", help_behavior_hint="(optional)")] = None
     model: Name = "uvlm-extended"
-    beside: tuple[Name, ...] = ("uvlm", "uvlm-no-suction", "quasi-steady", "hover-tank")
+    beside: tuple[Name, ...] = (
+        "uvlm",
+        "uvlm-no-suction",
+        "quasi-steady",
+        "hover-tank",
+        "translation",
+    )
     cycles: int = 5
     delay: float = DELAY
 
@@ -79,56 +91,97 @@ class MeasuredStrokes:
             name: scores[k * len(strokes) : (k + 1) * len(strokes)] for k, name in enumerate(names)
         }
         chosen = table[self.model]
-        rows = [
-            *rows_of(self.model, chosen, judged=True),
-            *(row for name in names[1:] for row in rows_of(name, table[name])),
-            *_delays(strokes),
-        ]
+        rows = [*rows_of(self.model, chosen), *_delays(strokes)]
         data = summary(self.model, chosen) | {
             "beside": {name: summary(name, table[name]) for name in names[1:]}
         }
         return Outcome(
-            tuple(rows), data, lambda path: draw_measured(path, self.model, table), NOTES
+            tuple(rows),
+            data,
+            lambda path: draw_measured(path, self.model, table),
+            NOTES,
+            (_models(table), _groups(self.model, chosen)),
         )
 
 
 NOTES = (
     "Published: the model's means against the published ones. Measured alike: the model's forces "
     "through the balance's clock and filter first (flaprig/validation/measuring_chain.py).",
-    "Histories are of the mean half-stroke: the rig's half-strokes differ by its mounting.",
+    "Histories are of the mean half-stroke, since the rig's half-strokes differ by its mounting: "
+    "correlation, and rms of the difference about the means over the rms of the measured one.",
 )
 
 
-def rows_of(name: str, scores: Sequence[Score], judged: bool = False) -> list[Row]:
-    """The table's lines of one model."""
+def rows_of(name: str, scores: Sequence[Score]) -> list[Row]:
+    """The lines of the model that is judged."""
     rows = []
     for alike, words in ((False, "published"), (True, "measured alike")):
         errors = np.array([s.alike if alike else s.published for s in scores])
-        for k, key in enumerate(KEYS):
-            within = (RMS[k], BIAS[k]) if judged else (None, None)
+        for k, key in enumerate(WORDS):
             rms, bias = float(np.sqrt(np.mean(errors[:, k] ** 2))), float(errors[:, k].mean())
             line = f"{name}, {words}, {key}"
-            rows.append(Row(f"{line} rms [%]", rms, 0.0, "Li & Nabawy", within[0], False))
-            rows.append(Row(f"{line} bias [%]", bias, 0.0, "Li & Nabawy", within[1], False))
-    for key, values in _histories(scores).items():
-        rows.append(Row(f"{name}, history, {key}", values))
+            rows.append(Row(f"{line} rms [%]", rms, 0.0, SOURCE, RMS[k], False))
+            rows.append(Row(f"{line} bias [%]", bias, 0.0, SOURCE, BIAS[k], False))
     return rows
+
+
+def _models(table: Mapping[str, Sequence[Score]]) -> Table:
+    """Every model in a line."""
+    header = ("model", *_HEADER, "C_L correlation, residual", "C_D correlation, residual")
+    lines = []
+    for name, scores in table.items():
+        h = _histories(scores)
+        lines.append(
+            (
+                name,
+                *_cells(scores),
+                f"{h['cl_correlation']:.3f}, {h['cl_residual']:.2f}",
+                f"{h['cd_correlation']:.3f}, {h['cd_residual']:.2f}",
+            )
+        )
+    return Table("All models, rms (bias) in %", header, tuple(lines))
+
+
+def _groups(name: str, scores: Sequence[Score]) -> Table:
+    """The judged model by Reynolds number."""
+    lines = [
+        (f"{words} {LARGE_REYNOLDS:g}, {len(group)} strokes", *_cells(group))
+        for words, group in zip(("above", "up to"), _by_reynolds(scores), strict=True)
+        if group
+    ]
+    return Table(f"{name} by Reynolds number, rms (bias) in %", ("Re", *_HEADER), tuple(lines))
+
+
+_HEADER = (
+    *("C_L", "C_D", "L/D"),
+    *("C_L measured alike", "C_D measured alike", "L/D measured alike"),
+)
+
+
+def _cells(scores: Sequence[Score]) -> list[str]:
+    errors = np.array([(*s.published, *s.alike) for s in scores])
+    rms, bias = np.sqrt(np.mean(errors**2, axis=0)), errors.mean(axis=0)
+    return [f"{r:.1f} ({b:+.1f})" for r, b in zip(rms, bias, strict=True)]
+
+
+def _by_reynolds(scores: Sequence[Score]) -> tuple[list[Score], list[Score]]:
+    """Above LARGE_REYNOLDS, and the rest."""
+    large = [s for s in scores if s.case.reynolds > LARGE_REYNOLDS]
+    return large, [s for s in scores if s.case.reynolds <= LARGE_REYNOLDS]
 
 
 def _histories(scores: Sequence[Score]) -> dict[str, float]:
     """Means over all strokes."""
     return {
-        "C_L correlation": float(np.mean([s.correlation[0] for s in scores])),
-        "C_D correlation": float(np.mean([s.correlation[1] for s in scores])),
-        "C_L rms over its own": float(np.mean([s.residual[0] for s in scores])),
-        "C_D rms over its own": float(np.mean([s.residual[1] for s in scores])),
+        f"{key}_{name}": float(np.mean([getattr(s, name)[k] for s in scores]))
+        for k, key in enumerate(("cl", "cd"))
+        for name in ("correlation", "residual")
     }
 
 
 def summary(name: str, scores: Sequence[Score]) -> dict[str, Any]:
     """What JSON holds of one model."""
-    large = [s for s in scores if s.case.reynolds > LARGE_REYNOLDS]
-    small = [s for s in scores if s.case.reynolds <= LARGE_REYNOLDS]
+    large, small = _by_reynolds(scores)
     groups = {"re_above_4000": large, "re_up_to_4000": small}
     return {
         "model": name,

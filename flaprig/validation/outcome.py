@@ -71,6 +71,21 @@ class Row:
 
 
 @dataclass(frozen=True)
+class Table:
+    """Numbers that are read across, as text.
+
+    Attributes:
+        title: above it.
+        header: of the columns; the first one names the lines.
+        lines: as many cells as the header has.
+    """
+
+    title: str
+    header: tuple[str, ...]
+    lines: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True)
 class Outcome:
     """The result of a case.
 
@@ -78,13 +93,15 @@ class Outcome:
         rows: the table.
         data: arrays and numbers for JSON, by name with unit.
         draw: writes the case's picture to a path; None where there is nothing to look at.
-        notes: sentences below the table: what the numbers mean, what was left out and why.
+        notes: sentences below the rows: what the numbers mean, what was left out and why.
+        tables: what is told beside the rows.
     """
 
     rows: tuple[Row, ...]
     data: Mapping[str, Any] = field(default_factory=dict)
     draw: Callable[[Path], None] | None = None
     notes: tuple[str, ...] = ()
+    tables: tuple[Table, ...] = ()
 
     @property
     def missed(self) -> tuple[Row, ...]:
