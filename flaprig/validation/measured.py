@@ -19,7 +19,7 @@ from flaprig.validation.case import on_all_cores
 from flaprig.validation.measured_file import Measured, read
 from flaprig.validation.measured_picture import draw_measured
 from flaprig.validation.measured_score import KEYS, Score, score
-from flaprig.validation.measuring_chain import DELAY, MOST_DELAY, delay
+from flaprig.validation.measuring_chain import DELAY, MOST_DELAY, delay, towards_the_edge
 from flaprig.validation.outcome import Outcome, Row, Table
 
 Array = NDArray[np.float64]
@@ -91,7 +91,7 @@ class MeasuredStrokes:
             name: scores[k * len(strokes) : (k + 1) * len(strokes)] for k, name in enumerate(names)
         }
         chosen = table[self.model]
-        rows = [*rows_of(self.model, chosen), *_delays(strokes)]
+        rows = [*rows_of(self.model, chosen), *_balance(strokes)]
         data = summary(self.model, chosen) | {
             "beside": {name: summary(name, table[name]) for name in names[1:]}
         }
@@ -208,9 +208,16 @@ def _statistics(errors: Sequence[Sequence[float]]) -> dict[str, dict[str, float]
     }
 
 
-def _delays(strokes: Sequence[Measured]) -> list[Row]:
-    """The balance's delay as each stroke tells it, without a model of the air."""
+def _balance(strokes: Sequence[Measured]) -> list[Row]:
+    """What the strokes tell of their balance, without a model of the air."""
     found = np.array([delay(stroke) for stroke in strokes])
-    return [
-        Row("balance's clock late, mean [s]", float(found.mean()), spread=float(found.std())),
-    ]
+    large = np.array([stroke.reynolds > LARGE_REYNOLDS for stroke in strokes])
+    share = 100.0 * np.array([towards_the_edge(stroke) for stroke in strokes])
+    words = "force towards the leading edge over the normal one"
+    rows = [Row("balance's clock late, mean [s]", float(found.mean()), spread=float(found.std()))]
+    for name, picked in (("up to", ~large), ("above", large)):
+        if picked.any():
+            part = share[picked]
+            line = f"{words}, Re {name} {LARGE_REYNOLDS:g} [%]"
+            rows.append(Row(line, float(part.mean()), spread=float(part.std())))
+    return rows

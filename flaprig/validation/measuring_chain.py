@@ -120,13 +120,24 @@ def delay(case: Measured) -> float:
 
 def chordwise(case: Measured, late: float) -> float:
     """Root mean square of the published chordwise force, over the reference force."""
+    chord, _ = without_buoyancy(case, late)
+    return float(np.sqrt(np.mean(np.square(chord))) / case.reference_force)
+
+
+def towards_the_edge(case: Measured, late: float = DELAY) -> float:
+    """Mean force towards the leading edge over the mean size of the normal force."""
+    chord, normal = without_buoyancy(case, late)
+    return float(-chord.mean() / np.abs(normal).mean())
+
+
+def without_buoyancy(case: Measured, late: float) -> tuple[Array, Array]:
+    """Published chordwise and normal force [N], less what buoyancy alone reads at a delay."""
     phase = np.arange(COUNT) / COUNT
     force = case.reference_force
     read = OneCycle(
         case.stroke, history(case.lift, phase) * force, history(case.drag, phase) * force
     )
     lifted = buoyancy(case)
-    chord = read.in_wing_axes(lifted)[0]
-    # what the buoyancy alone reads at the earlier pitch
+    chord, normal = read.in_wing_axes(lifted)
     earlier = case.stroke.motion(phase / case.stroke.frequency - late).pitch
-    return float(np.sqrt(np.mean(np.square(chord + np.cos(earlier) * lifted))) / force)
+    return chord + np.cos(earlier) * lifted, normal - np.sin(earlier) * lifted

@@ -136,3 +136,4 @@ def _bars(
     axes.plot([place[-1] - 0.42, place[-1] + 0.42], [known] * 2, color=style.INK, label="measured")
     axes.set(ylabel=label, xticks=place, xticklabels=[f"{s:.2f}/{p:.2f}" for s, p in pairs])
     axes.grid(False, axis="x")
+    axes.set_axisbelow(True)
