@@ -18,6 +18,7 @@ from flaprig.validation.paper import Paper
 from flaprig.validation.peer import Peer
 from flaprig.validation.plugin import Plugin
 from flaprig.validation.quasi_steady import QuasiSteadyLimits
+from flaprig.validation.quasi_steady_fit import QuasiSteadyFit
 from flaprig.validation.suction import Suction
 from flaprig.validation.theodorsen import Theodorsen
 from flaprig.validation.wagner import Wagner
@@ -39,6 +40,7 @@ _CASES: tuple[type[Case], ...] = (
     Paper,
     MeasuredStrokes,
     LeaveOneOut,
+    QuasiSteadyFit,
     Convergence,
 )
 # in the order of the page
