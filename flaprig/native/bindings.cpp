@@ -10,9 +10,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "clock.hpp"
 #include "coefficients.hpp"
 #include "drive.hpp"
 #include "induced.hpp"
+#include "kernel_choice.hpp"
 #include "quasi_steady.hpp"
 #include "settings.hpp"
 #include "uvlm.hpp"
@@ -225,6 +227,15 @@ NB_MODULE(_native, m) {
       .def("coefficients", &PyAir::coefficients);
   m.def("sheet_velocity", &sheet_velocity, nb::arg("vertices"), nb::arg("circulation"),
         nb::arg("core"), nb::arg("points"), nb::arg("single") = false, nb::arg("threads") = 1);
+  m.def("kernel_names", &kernel_names);
+  m.def("kernel_name", [] { return std::string(chosen_kernel<float>().name); });
+  m.def("use_kernel", [](const std::string& name) {
+    if (!use_kernel(name)) throw std::invalid_argument("no kernel here is called " + name);
+  });
+  m.def("fma_peak", &fma_peak, nb::arg("single") = true,
+        nb::call_guard<nb::gil_scoped_release>());
+  m.def("clocks", &clocks);
+  m.def("reset_clocks", &reset_clocks);
   // reads and checks only; the number of doubles that the model would remember
   m.def("check_attributes", [](const std::string& model, const Attributes& attributes) {
     return state_size(read_specification(model_named(model), attributes));

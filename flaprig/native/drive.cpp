@@ -1,10 +1,8 @@
 #include "drive.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <system_error>
-#include <thread>
-#include <vector>
+
+#include "pool.hpp"
 
 namespace flaprig {
 namespace {
@@ -44,28 +42,17 @@ void drive(const Air& air, double* state, const MotionArrays& motion, double* ba
 void drive_batch(const Air& air, int count, double* states, const MotionArrays& motions,
                  double* base, double* extra, double* added, int threads) {
   const int n = motions.n;
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int k = next++; k < count; k = next++) {
-      const size_t first = static_cast<size_t>(k) * n;
-      const MotionArrays one = {n,
-                                motions.dt,
-                                motions.position + 3 * first,
-                                motions.rotation + 9 * first,
-                                motions.twist + 6 * first,
-                                motions.twist_rate + 6 * first};
-      drive(air, states + static_cast<size_t>(k) * air.state_size(), one, base + 6 * first,
-            extra + 6 * first, added + 6 * first);
-    }
-  };
-  std::vector<std::thread> pool;
-  try {
-    for (int t = 1; t < std::min(threads, count); ++t) pool.emplace_back(work);
-  } catch (const std::system_error&) {
-    // no more threads to be had: those there are do the work
-  }
-  work();
-  for (auto& thread : pool) thread.join();
+  in_parallel(threads, count, [&](int k) {
+    const size_t first = static_cast<size_t>(k) * n;
+    const MotionArrays one = {n,
+                              motions.dt,
+                              motions.position + 3 * first,
+                              motions.rotation + 9 * first,
+                              motions.twist + 6 * first,
+                              motions.twist_rate + 6 * first};
+    drive(air, states + static_cast<size_t>(k) * air.state_size(), one, base + 6 * first,
+          extra + 6 * first, added + 6 * first);
+  });
 }
 
 }  // namespace flaprig

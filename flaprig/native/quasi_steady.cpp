@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "clock.hpp"
+
 namespace flaprig {
 
 QuasiSteady::QuasiSteady(const Planform& planform, const QuasiSteadySettings& settings,
@@ -79,6 +81,7 @@ void QuasiSteady::add_rotation(const Strip& s, double speed, double spin, Wrench
 }
 
 Loads QuasiSteady::loads(const double*, const Motion& motion) const {
+  Stopwatch clock(Phase::kLoads);
   const Twist t = relative_to_wind(motion, wind_w_).twist;
   Loads loads;
   Section section;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clock.hpp"
 #include "dense.hpp"
 #include "induced.hpp"
 
@@ -40,9 +41,11 @@ void Tick::run() {
   if (wake_.started() == 0) {
     begin();
   } else {
+    Stopwatch roll_up(Phase::kRollUp);
     convect();
     shed();
   }
+  Stopwatch wing(Phase::kWing);
   wake_stream();
   kutta_influence();
   solve();

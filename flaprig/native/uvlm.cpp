@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clock.hpp"
 #include "tick.hpp"
 
 namespace flaprig {
@@ -82,6 +83,7 @@ std::vector<double> Uvlm::circulation(const double* state, const Motion& motion)
 }
 
 Loads Uvlm::loads(const double* state, const Motion& motion) const {
+  Stopwatch clock(Phase::kLoads);
   const Motion relative = relative_to_wind(motion, wind_w_);
   const Between now(*this, state, relative.twist);
   Loads loads;

@@ -107,16 +107,20 @@ class Convergence:
 
     Attributes:
         cycles: of each run; means are over the third to the last, at most three.
+        neighbours: strokes over which every number is averaged. Their frequencies are a ten
+            millionth apart, enough for a chaotic wake to roll up otherwise.
     """
 
     name: ClassVar[str] = "convergence"
     claim: ClassVar[str] = "refinement of the rig's loads, and their uncertainty"
 
     cycles: int = 5
+    neighbours: int = 4
 
     def run(self, progress: Progress | None = None) -> Outcome:
         """Run the case. ValueError for a parameter out of range."""
         check.whole(self.name, "cycles", self.cycles, 2, 100)
+        check.whole(self.name, "neighbours", self.neighbours, 1, 100)
         base = UVLM()
         varied = sweeps(base)
         models = list(dict.fromkeys([base, *(m for sweep in varied for m in sweep.models)]))
@@ -137,7 +141,13 @@ class Convergence:
         )
 
     def _summary(self, model: UVLM) -> dict[str, Any]:
-        return simulate(RIG_WING, SINUSOID, model, cycles=self.cycles).summary()
+        near = [
+            replace(SINUSOID, frequency=SINUSOID.frequency * (1.0 + 1e-7 * k))
+            for k in range(self.neighbours)
+        ]
+        found = [simulate(RIG_WING, s, model, cycles=self.cycles).summary() for s in near]
+        keys = [key for key in found[0] if key.removesuffix("_spread") in QUANTITIES]
+        return {key: float(np.mean([f[key] for f in found])) for key in keys}
 
 
 def _work(model: UVLM) -> float:

@@ -1,5 +1,6 @@
 """Where the kept wake ends: its last vortex must not leap beside the wing at every step."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -15,11 +16,22 @@ FAST_FLIP = SunTangStroke(0.2, np.pi / 3, np.pi / 4, 0.5, 0.16)
 STEPS = 120
 
 
+# the roll-up is chaotic: what is said of one stroke must hold for its neighbours
+NEIGHBOURS = 1 + 1e-7 * np.arange(7)
+
+
 @cache
-def pitch_torque(fade):
+def pitch_torque(fade, frequency=1.0):
     """Cycles 2 and 3 [N m]: the wake is full."""
     model = UVLM(chordwise=4, spanwise=6, steps_per_cycle=STEPS, wake_fade=fade)
-    return simulate(RIG_WING, FAST_FLIP, model, cycles=3).pitch_torque[STEPS:]
+    stroke = replace(FAST_FLIP, frequency=frequency * FAST_FLIP.frequency)
+    return simulate(RIG_WING, stroke, model, cycles=3).pitch_torque[STEPS:]
+
+
+def peaks(fade):
+    """Largest pitch torques [N m] of neighbouring strokes, and over the 99th percentile."""
+    torques = [np.abs(pitch_torque(fade, near)) for near in NEIGHBOURS]
+    return np.array([(t.max(), t.max() / np.percentile(t, 99)) for t in torques]).T
 
 
 def test_an_end_at_full_strength_shakes_the_pitch_torque():
@@ -29,12 +41,9 @@ def test_an_end_at_full_strength_shakes_the_pitch_torque():
 
 
 def test_the_peak_is_no_outlier_when_the_end_fades():
-    largest, percentile = (
-        f(np.abs(pitch_torque(0.1))) for f in (np.max, lambda t: np.percentile(t, 99))
-    )
-    assert largest < 1.06 * percentile
-    abrupt = np.abs(pitch_torque(0.0))
-    assert abrupt.max() > 1.25 * np.percentile(abrupt, 99)
+    largest, ratio = np.median(peaks(0.1), axis=1)
+    assert ratio < 1.06
+    assert np.median(peaks(0.0)[1]) > 1.25
     assert largest == pytest.approx(0.0078, rel=0.05)
 
 

@@ -5,7 +5,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from flaprig.aero.models import UVLM
+from flaprig.aero.simulate import simulate
 from flaprig.native import _native
+from flaprig.strokes import SunTangStroke
+from flaprig.wing import RIG_WING
 
 
 def segment(a, b, points, core):
@@ -28,8 +32,17 @@ def plain_sum(vertices, circulation, core, points):
     return velocity
 
 
+@pytest.fixture(params=_native.kernel_names())
+def kernel(request):
+    """Every instruction set that this processor has."""
+    before = _native.kernel_name()
+    _native.use_kernel(request.param)
+    yield request.param
+    _native.use_kernel(before)
+
+
 @pytest.fixture
-def sheet():
+def sheet(kernel):
     rng = np.random.default_rng(1)
     grid = np.stack(np.meshgrid(np.arange(8.0), np.arange(5.0), [0.0], indexing="ij"), -1)[:, :, 0]
     vertices = grid + 0.3 * rng.standard_normal(grid.shape)
@@ -62,7 +75,7 @@ def test_single_is_good_far_away_and_far_out(sheet):
     assert np.abs(single - double).max() < 1e-6 * near
 
 
-def test_single_is_good_on_the_edges_themselves():
+def test_single_is_good_on_the_edges_themselves(kernel):
     """A vertex of the wake may lie on any edge but for rounding: nothing is flung away there."""
     rng = np.random.default_rng(3)
     for _ in range(200):
@@ -102,7 +115,7 @@ def test_on_vertices_and_edges_it_is_finite(sheet, single):
     assert np.isfinite(velocity).all()
 
 
-def test_own_edges_induce_nothing():
+def test_own_edges_induce_nothing(kernel):
     square = np.array([[[0.0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]])
     # beyond the end of an edge, on its line: only the other three edges are felt
     point = np.array([[0.0, 2.0, 0.0]])
@@ -112,11 +125,45 @@ def test_own_edges_induce_nothing():
     np.testing.assert_allclose(ours, expected, rtol=1e-9)
 
 
-def test_unit_ring_at_its_centre():
+def test_unit_ring_at_its_centre(kernel):
     # a square of side 1: 2 sqrt(2) / pi at the centre, along -z for corners a b c d
     square = np.array([[[0.0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]])
     velocity = _native.sheet_velocity(square, np.ones((1, 1)), 1e-9, np.array([[0.5, 0.5, 0]]))
     np.testing.assert_allclose(velocity, [[0, 0, -2 * np.sqrt(2) / np.pi]], rtol=1e-12)
+
+
+def test_wide_sheets_fling_nothing_away_at_their_own_vertices(kernel):
+    """Edges a thousand lengths long: at an edge's end its direction is lost to rounding."""
+    x, y = np.meshgrid(50.0 * np.arange(12), [0.0, 1000.0], indexing="ij")
+    rng = np.random.default_rng(4)
+    vertices = np.stack([x, y, rng.uniform(0, 5, x.shape)], -1)
+    double, single = (
+        _native.sheet_velocity(vertices, np.ones((11, 1)), 0.15, vertices.reshape(-1, 3), s)
+        for s in (False, True)
+    )
+    np.testing.assert_allclose(single, double, atol=1e-3)
+
+
+def test_widest_kernel_is_the_one_in_use():
+    assert _native.kernel_name() == _native.kernel_names()[0]
+    assert _native.kernel_names()[-1] == "128 bits"
+
+
+def test_unknown_kernel_is_refused():
+    with pytest.raises(ValueError, match="no kernel here is called AVX-1024"):
+        _native.use_kernel("AVX-1024")
+
+
+def test_peak_is_a_processors():
+    double, single = _native.fma_peak(single=False), _native.fma_peak()
+    assert 5e8 < double < single < 5e12
+
+
+def test_clocks_count_what_the_solver_does():
+    _native.reset_clocks()
+    assert not any(_native.clocks().values())
+    simulate(RIG_WING, SunTangStroke(0.2, 1.0, 0.8), UVLM(2, 4, 40), cycles=1)
+    assert all(0 < seconds < 60 for seconds in _native.clocks().values())
 
 
 def test_empty_sheet():

@@ -1,0 +1,67 @@
+// The innermost loop for processors with AVX-512. Compiled with its flags: nothing but the kernels
+// may be in here.
+#include "kernel.hpp"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+namespace flaprig {
+namespace {
+
+struct F {
+  static constexpr int kSize = 16;
+  static constexpr float kDelta2 = 1e-14f, kFloor = 4.8e-7f, kTiny = 1e-30f;
+  __m512 v;
+  static F load(const float* p) { return {_mm512_loadu_ps(p)}; }
+  static F set(float s) { return {_mm512_set1_ps(s)}; }
+  void store(float* p) const { _mm512_storeu_ps(p, v); }
+};
+inline F operator+(F a, F b) { return {_mm512_add_ps(a.v, b.v)}; }
+inline F operator-(F a, F b) { return {_mm512_sub_ps(a.v, b.v)}; }
+inline F operator*(F a, F b) { return {_mm512_mul_ps(a.v, b.v)}; }
+inline F fma(F a, F b, F c) { return {_mm512_fmadd_ps(a.v, b.v, c.v)}; }
+inline F fms(F a, F b, F c) { return {_mm512_fmsub_ps(a.v, b.v, c.v)}; }
+inline F max(F a, F b) { return {_mm512_max_ps(a.v, b.v)}; }
+// 14 bits and one step of Newton's: the rest of a float
+inline F rcp(F a) {
+  const __m512 r = _mm512_rcp14_ps(a.v);
+  return {_mm512_fmadd_ps(r, _mm512_fnmadd_ps(a.v, r, _mm512_set1_ps(1.0f)), r)};
+}
+inline F rsqrt(F a) {
+  const __m512 r = _mm512_rsqrt14_ps(a.v), half = _mm512_mul_ps(_mm512_set1_ps(0.5f), r);
+  const __m512 rest = _mm512_fnmadd_ps(_mm512_mul_ps(a.v, r), r, _mm512_set1_ps(1.0f));
+  return {_mm512_fmadd_ps(half, rest, r)};
+}
+
+struct D {
+  static constexpr int kSize = 8;
+  static constexpr double kDelta2 = 1e-40, kFloor = 8.9e-16, kTiny = 1e-200;
+  __m512d v;
+  static D load(const double* p) { return {_mm512_loadu_pd(p)}; }
+  static D set(double s) { return {_mm512_set1_pd(s)}; }
+  void store(double* p) const { _mm512_storeu_pd(p, v); }
+};
+inline D operator+(D a, D b) { return {_mm512_add_pd(a.v, b.v)}; }
+inline D operator-(D a, D b) { return {_mm512_sub_pd(a.v, b.v)}; }
+inline D operator*(D a, D b) { return {_mm512_mul_pd(a.v, b.v)}; }
+inline D fma(D a, D b, D c) { return {_mm512_fmadd_pd(a.v, b.v, c.v)}; }
+inline D fms(D a, D b, D c) { return {_mm512_fmsub_pd(a.v, b.v, c.v)}; }
+inline D max(D a, D b) { return {_mm512_max_pd(a.v, b.v)}; }
+inline D rcp(D a) { return {_mm512_div_pd(_mm512_set1_pd(1.0), a.v)}; }
+inline D rsqrt(D a) { return {_mm512_div_pd(_mm512_set1_pd(1.0), _mm512_sqrt_pd(a.v))}; }
+
+#include "kernel_sweep.hpp"
+
+}  // namespace
+
+template <>
+Kernel<float> avx512_kernel() {
+  return kernel_of<F, float>("AVX-512");
+}
+template <>
+Kernel<double> avx512_kernel() {
+  return kernel_of<D, double>("AVX-512");
+}
+
+}  // namespace flaprig
+#endif
