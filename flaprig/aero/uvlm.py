@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, ClassVar, Self
@@ -15,6 +16,8 @@ from flaprig.wing import Wing
 # suction efficiency of eq. 6 that gives the paper's sinusoid its measured C_L of 1.94 with the
 # other defaults below: a calibration on one case, not a prediction (docs/model.md)
 SUCTION_EFFICIENCY = 0.70
+# the wing meets what it has shed for half a cycle: docs/model.md
+WAKE_DETAIL = 0.5
 # of the extended lattice, fitted as docs/validation.md says: travel in chords, and the law
 EXTENDED_LAG = 0.15
 EXTENDED_SUCTION = SuctionLaw(slope=0.36, onset=3000.0)
@@ -41,6 +44,10 @@ class UVLM:
         suction_factor: 1 for eq. 6 as printed, 4/pi to make eta_s = 1 the exact flat-plate
             suction (the lattice returns pi/4 of it).
         wake_cycles: length of the wake kept, in cycles.
+        wake_detail: age in cycles up to which the wake convects itself with all its velocities at
+            every step. Older rows are moved by velocities found every second step and, at twice
+            that age, every fourth; there rows merge into longer ones, too, and the cost of a step
+            stays nearly the same however long the wake is. 0 for brute force (docs/model.md).
         wake_fade: share of the wake's rows, the oldest, over which its circulation fades to
             nothing. At 0 the wake ends in a strong vortex, another one at every step.
         core: radius of the vortex core, in mean chords.
@@ -65,6 +72,7 @@ class UVLM:
     suction_efficiency: float | SuctionLaw = SUCTION_EFFICIENCY
     suction_factor: float = 1.0
     wake_cycles: float = 1.0
+    wake_detail: float = WAKE_DETAIL
     wake_fade: float = 0.1
     core: float = 0.15
     shedding_fraction: float = 1.0 / 3.0
@@ -87,6 +95,7 @@ class UVLM:
             check.in_range(owner, "suction_efficiency", self.suction_efficiency, 0, 10)
         check.in_range(owner, "suction_factor", self.suction_factor, 0, 2)
         check.in_range(owner, "wake_cycles", self.wake_cycles, 0.01, 100)
+        check.in_range(owner, "wake_detail", self.wake_detail, 0, 100)
         check.in_range(owner, "wake_fade", self.wake_fade, 0, 1)
         check.positive(owner, "core", self.core, "mean chords", most=2)
         check.in_range(owner, "shedding_fraction", self.shedding_fraction, 0.01, 0.99)
@@ -161,6 +170,7 @@ class UVLM:
             "spanwise": int(self.spanwise),
             "wake_step": float(1.0 / (frequency * self.steps_per_cycle)),
             "wake_rows": max(1, round(self.wake_cycles * self.steps_per_cycle)),
+            "wake_detail": math.ceil(self.wake_detail * self.steps_per_cycle),
             "wake_fade": float(self.wake_fade),
             "core": float(self.core),
             "shedding_fraction": float(self.shedding_fraction),

@@ -47,6 +47,7 @@ UvlmSettings read_uvlm(const Reader& read) {
   if (static_cast<double>(s.wake_rows) * s.spanwise * 4 > kLargestState) {
     read.refuse("wake_rows", "at most 5e6 over spanwise");
   }
+  s.wake_detail = read.integer("wake_detail", s.wake_detail, 0, 100000);
   s.wake_fade = read.number("wake_fade", s.wake_fade, {0, 1}, "");
   s.core = read.number("core", s.core, {0, 2, true}, "mean chords");
   s.shedding_fraction = read.number("shedding_fraction", s.shedding_fraction, {0.01, 0.99}, "");
@@ -144,8 +145,8 @@ const std::vector<const char*>& attribute_names(Model model) {
   static const std::vector<const char*> uvlm = {
       "site",     "span",         "chord",             "root_offset", "pitch_axis", "stations",
       "density",  "wind",         "thickness",         "buoyancy",    "chordwise",  "spanwise",
-      "wake_step", "wake_rows",   "wake_fade",         "core",              "shedding_fraction",         "tip_inset",
-      "rate",
+      "wake_step", "wake_rows",   "wake_detail",       "wake_fade",   "core",
+      "shedding_fraction",        "tip_inset",         "rate",
       "suction_efficiency",       "suction_factor",    "side_suction_efficiency",
       "circulation_lag",          "threads"};
   return model == Model::kUvlm ? uvlm : quasi_steady;
@@ -166,8 +167,10 @@ Specification read_specification(Model model, const Attributes& attributes) {
 
 int state_size(const Specification& s) {
   if (s.model == Model::kQuasiSteady) return 0;
-  return Wake::state_size(s.uvlm.chordwise * s.uvlm.spanwise, s.uvlm.spanwise, s.uvlm.wake_rows,
-                          s.uvlm.circulation_lag > 0);
+  const UvlmSettings& u = s.uvlm;
+  return Wake(u.chordwise * u.spanwise, u.spanwise, u.wake_rows, u.wake_detail,
+              u.circulation_lag > 0, nullptr)
+      .state_size();
 }
 
 std::unique_ptr<Air> make_air(const Specification& s) {

@@ -23,6 +23,7 @@ struct UvlmSettings {
   double wake_fade = 0.1;              // share of them, the oldest, that fades to nothing
   double core = 0.15;                  // vortex core radius [mean chords]
   double shedding_fraction = 1.0 / 3;  // of the way to the last free row (Ramesh 2014)
+  int wake_detail = 50;                // rows that are young (roll_up.hpp); 0: all are, for ever
   double tip_inset = 0.25;             // of a strip
   Rate rate = Rate::kRamped;
   double suction_efficiency = 0.7;     // eta_s of eq. 6, calibrated: docs/model.md

@@ -6,6 +6,7 @@
 #include "clock.hpp"
 #include "dense.hpp"
 #include "induced.hpp"
+#include "roll_up.hpp"
 
 namespace flaprig {
 namespace {
@@ -42,7 +43,7 @@ void Tick::run() {
     begin();
   } else {
     Stopwatch roll_up(Phase::kRollUp);
-    convect();
+    RollUp(air_, wake_, read_pose(wake_.pose())).run(elapsed_);
     shed();
   }
   Stopwatch wing(Phase::kWing);
@@ -80,42 +81,6 @@ void Tick::begin() {
   }
   wake_.rows() = 0;
   elapsed_ = air_.settings().wake_step;
-}
-
-// moves every free row with the velocity that all vortices had at the last tick. Bound rings,
-// the first wake rings and the frozen ones are one sheet: the trailing edge cancels by itself.
-void Tick::convect() {
-  const Motion old = read_pose(wake_.pose());
-  const int n = wake_.strips, bound = lattice_.chordwise();
-  const int rows = static_cast<int>(wake_.rows());
-  const double scale = air_.settings().core / air_.core();  // lengths in mean chords
-  Sheet<float> sheet;
-  sheet.resize(bound + 1 + rows, n);
-  for (int i = 0; i <= bound; ++i) {
-    for (int j = 0; j <= n; ++j) {
-      put(sheet, i * (n + 1) + j, old.rotation * lattice_.vertex(i, j), scale);
-    }
-  }
-  const int first = (bound + 1) * (n + 1), count = (rows + 1) * (n + 1);
-  Points<float> points(count), velocity(count);
-  for (int v = 0; v < count; ++v) {
-    put(sheet, first + v, wake_.vertex(v / (n + 1), v % (n + 1)) - old.position_w, scale);
-    points.x[v] = sheet.x[first + v];
-    points.y[v] = sheet.y[first + v];
-    points.z[v] = sheet.z[first + v];
-  }
-  const double* g = wake_.circulation();
-  const auto rings = std::copy_n(g, bound * n, sheet.circulation.begin());
-  std::copy_n(g + (bound - 1) * n, n, rings);
-  air_.free_strengths(wake_, sheet.circulation.data() + (bound + 1) * n);
-  induced_velocity(sheet, static_cast<float>(air_.settings().core), points, velocity,
-                   air_.settings().threads);
-  for (int v = 0; v < count; ++v) {
-    // circulation / length, both in metres here and in chords there
-    const Vec3 induced = scale * Vec3{velocity.x[v], velocity.y[v], velocity.z[v]};
-    const int row = v / (n + 1), j = v % (n + 1);
-    wake_.set_vertex(row, j, wake_.vertex(row, j) + elapsed_ * (induced + air_.wind_w()));
-  }
 }
 
 // the new row between the trailing edge and the last free row; the last ring freezes

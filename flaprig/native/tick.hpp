@@ -16,7 +16,6 @@ class Tick {
   bool trailing_edge_jumped() const;
   Vec3 trailing_edge_w(int j) const;
   void begin();
-  void convect();
   void shed();
   void wake_stream();
   void kutta_influence();

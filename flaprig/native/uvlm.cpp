@@ -18,14 +18,6 @@ Uvlm::Uvlm(const Planform& planform, const UvlmSettings& settings, double densit
   added_mass_ = lattice_.unit_added_mass();
   for (double& a : added_mass_) a *= density;
   place_rates();
-  // a wake that ends at full strength ends in a strong vortex, another one at every tick: in hover
-  // it lies beside the wing, and its leaps are most of the noise in the pitch torque
-  const double rows = settings.wake_rows;
-  for (int row = 0; row < settings.wake_rows; ++row) {
-    const double left = (rows - row) / (rows + 1);
-    const double x = settings.wake_fade > 0 ? std::min(1.0, left / settings.wake_fade) : 1.0;
-    fade_.push_back(x * x * (3 - 2 * x));
-  }
   weigh_suction(planform);
   weigh_sides(planform);
   for (int j = 0; j < lattice_.spanwise(); ++j) {
@@ -37,13 +29,21 @@ Uvlm::Uvlm(const Planform& planform, const UvlmSettings& settings, double densit
 }
 
 int Uvlm::state_size() const {
-  return Wake::state_size(lattice_.size(), lattice_.spanwise(), settings_.wake_rows,
-                          settings_.circulation_lag > 0);
+  return wake(nullptr).state_size();
 }
 
 Wake Uvlm::wake(double* state) const {
-  return {lattice_.size(), lattice_.spanwise(), settings_.wake_rows, settings_.circulation_lag > 0,
-          state};
+  return {lattice_.size(),       lattice_.spanwise(),           settings_.wake_rows,
+          settings_.wake_detail, settings_.circulation_lag > 0, state};
+}
+
+// a wake that ends at full strength ends in a strong vortex, another one at every tick: in hover
+// it lies beside the wing, and its leaps are most of the noise in the pitch torque
+double Uvlm::fade(double age) const {
+  if (settings_.wake_fade == 0) return 1;
+  const double left = (settings_.wake_rows - age) / (settings_.wake_rows + 1);
+  const double x = std::clamp(left / settings_.wake_fade, 0.0, 1.0);
+  return x * x * (3 - 2 * x);
 }
 
 // values are extrapolated from the last two ticks, the rate ramps from the one before to the

@@ -30,8 +30,11 @@ class Uvlm : public Air {
   template <class T>
   void free_strengths(Wake& wake, T* out) const {
     const double* strengths = wake.strengths();
+    double newer = 0;  // ticks
     for (int row = 0; row < static_cast<int>(wake.rows()); ++row) {
-      for (int j = 0; j < wake.strips; ++j) *out++ = static_cast<T>(fade_[row] * *strengths++);
+      const double ticks = wake.ticks()[row], left = fade(newer + 0.5 * (ticks - 1));
+      for (int j = 0; j < wake.strips; ++j) *out++ = static_cast<T>(left * *strengths++);
+      newer += ticks;
     }
   }
   // speed of a strip's mid-chord across the span [chords/s]
@@ -49,6 +52,8 @@ class Uvlm : public Air {
   double lead(double s) const {
     return settings_.rate == UvlmSettings::Rate::kSecondOrder ? s + 0.5 : 0;
   }
+  // what is left of a row's strength at an age in ticks
+  double fade(double age) const;
   bool due(const Wake& wake, double dt) const;
   void place_rates();
   void steady_load(const double* g, const double* stream, const Twist& twist, Wrench& load) const;
@@ -61,7 +66,6 @@ class Uvlm : public Air {
   UvlmSettings settings_;
   Lattice lattice_;
   double density_, core_;
-  std::vector<double> fade_;            // per row, newest first
   std::vector<double> rate_area_;       // that dG/dt of a ring acts on [m2], and where
   std::vector<Vec3> rate_centre_;
   std::vector<double> suction_weight_;  // per strip: force / (G |G|)

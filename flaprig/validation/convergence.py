@@ -73,12 +73,14 @@ def sweeps(base: UVLM) -> tuple[Sweep, ...]:
     plain = {
         "core": (0.1, 0.15, 0.2, 0.3),
         "wake_cycles": (0.5, 0.75, 1.0, 1.5),
+        "wake_detail": (0.125, 0.25, 0.5, 1.0),
         "wake_fade": (0.0, 0.1, 0.25, 0.5),
         "shedding_fraction": (0.2, 0.25, 1.0 / 3.0, 0.5),
     }
     words = {
         "core": "vortex core [chords]",
         "wake_cycles": "wake kept [cycles]",
+        "wake_detail": "age of full detail [cycles]",
         "wake_fade": "share of it that fades",
         "shedding_fraction": "shedding fraction",
     }
@@ -213,9 +215,11 @@ def _table(varied: Sequence[Sweep], found: Found) -> Table:
 
 
 def _draw(path: Path, varied: Sequence[Sweep], found: Found, base: UVLM) -> None:
-    with style.figure(9.0, 5.2) as drawing:
-        grid = drawing.subplots(2, 3, sharey=True)
-        for axes, sweep in zip(grid.flat, varied, strict=True):
+    with style.figure(11.0, 5.2) as drawing:
+        grid = drawing.subplots(2, 4, sharey=True)
+        for axes in grid.flat[len(varied) :]:
+            axes.set_axis_off()
+        for axes, sweep in zip(grid.flat, varied, strict=False):
             for (key, words), colour in zip(QUANTITIES.items(), style.SERIES, strict=True):
                 change = [100.0 * (found[m][key] / found[base][key] - 1.0) for m in sweep.models]
                 axes.plot(sweep.values, change, "o-", ms=3.5, color=colour, label=words)

@@ -72,8 +72,8 @@ def lattice_air(
         rows: rows of wake kept.
         settings: fields of UVLM that differ.
     """
-    plain = {"suction_efficiency": 0.0, "core": 0.001, "wake_fade": 0.0} | settings
-    model = UVLM(chordwise=chordwise, spanwise=spanwise, **plain)
+    plain = {"suction_efficiency": 0.0, "core": 0.001, "wake_detail": 0.0, "wake_fade": 0.0}
+    model = UVLM(chordwise=chordwise, spanwise=spanwise, **plain | settings)
     return Air(wing, FLUID, model, 1.0, wake_step=repr(float(step)), wake_rows=str(rows))
 
 

@@ -68,6 +68,7 @@ class Impulse:
             self.spanwise,
             self.steps_per_cycle,
             suction_efficiency=0.0,
+            wake_detail=0.0,
             wake_fade=0.0,
         )
         step = STROKE.period / self.steps_per_cycle

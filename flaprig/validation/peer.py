@@ -47,7 +47,7 @@ ALL_SUCTION = {"suction_efficiency": 1.0, "suction_factor": 4.0 / math.pi}
 # our settings towards its, one upon the other; its core grows with age to about a tenth
 BLUNT: dict[str, Any] = {"tip_inset": 0.0}
 SHED = BLUNT | {"shedding_fraction": 0.2, "rate": Rate.BACKWARD}
-WHOLE = SHED | {"wake_cycles": 10.0, "wake_fade": 0.0, "core": 0.1}
+WHOLE = SHED | {"wake_cycles": 10.0, "wake_detail": 0.0, "wake_fade": 0.0, "core": 0.1}
 TOWARDS = {"blunt tips": BLUNT, "+ its shedding, rate": SHED, "+ whole wake, core 0.1 c": WHOLE}
 SPARED, NORMAL = "core off its wing", "normal force a step earlier"
 FLIGHT = (

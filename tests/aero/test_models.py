@@ -18,6 +18,7 @@ BAD_UVLM = {
     "suction_efficiency": [-0.1, 11, math.nan],
     "suction_factor": [-1, 2.5],
     "wake_cycles": [0, -1, 101, math.inf],
+    "wake_detail": [-0.1, 101, math.nan],
     "wake_fade": [-0.1, 1.1, math.nan],
     "core": [0, -0.1, 2.1, "a"],
     "shedding_fraction": [0, 1, math.nan],

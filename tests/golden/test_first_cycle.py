@@ -14,16 +14,32 @@ FAST = SunTangStroke(0.2, np.pi / 3, np.pi / 4, 0.32, 0.16)
 AT = np.arange(1, 10)
 
 
+BRUTE = {"chordwise": 4, "spanwise": 8, "wake_detail": 0}
 # name: wing, stroke, model
 CASES = {
     "uvlm": (RIG_WING, SINUSOID, UVLM()),
-    "uvlm_beta_fast": (Wing.beta(0.24, 0.06, 0.5), FAST, UVLM(chordwise=4, spanwise=8)),
-    "extended": (RIG_WING, FAST, UVLM.extended(chordwise=4, spanwise=8)),
+    "uvlm_brute_force": (RIG_WING, SINUSOID, UVLM(wake_detail=0)),
+    "uvlm_beta_fast": (Wing.beta(0.24, 0.06, 0.5), FAST, UVLM(**BRUTE)),
+    "extended": (RIG_WING, FAST, UVLM.extended(**BRUTE)),
     "quasi_steady": (RIG_WING, FAST, QuasiSteady()),
 }
 # lift [N], sweep and pitch torque [N m] at these instants
 TODAY = {
     "uvlm": {
+        "lift": [
+            0.1597444, 0.5389029, 0.6321139, 0.1905639, 0.0,
+            0.1335716, 0.4740086, 0.6432012, 0.2317264,
+        ],
+        "sweep_torque": [
+            -0.06049463, -0.1115908, -0.1293369, -0.07123436, 0.02681155,
+            0.05192868, 0.09800135, 0.1295686, 0.08357139,
+        ],
+        "pitch_torque": [
+            0.002134723, -0.0006086144, -0.0008235444, -0.001834599, -0.004045901,
+            -0.003073149, -0.0005777457, -0.0006759653, 0.0005978871,
+        ],
+    },
+    "uvlm_brute_force": {
         "lift": [
             0.1597444, 0.5389029, 0.6321139, 0.1905639, 0.0,
             0.1335737, 0.4740167, 0.6435186, 0.2312835,

@@ -23,6 +23,7 @@ NUMBERS = [
     (UVLM, "wake_step", "one number from 1e-07 to 1000 s", ["0", "-0.05", "1e-8", "2000"]),
     (UVLM, "core", "one number above 0 and up to 2 mean chords", ["0", "-0.1", "2.1"]),
     (UVLM, "shedding_fraction", "one number from 0.01 to 0.99", ["0", "1", "-0.3"]),
+    (UVLM, "wake_detail", "a whole number from 0 to 100000", ["-1", "100001", "2.5"]),
     (UVLM, "wake_fade", "one number from 0 to 1", ["-0.1", "1.01"]),
     (UVLM, "tip_inset", "one number from 0 to 0.5 strips", ["-0.1", "0.6"]),
     (UVLM, "suction_efficiency", "one number from 0 to 10", ["-1", "10.1"]),

@@ -34,7 +34,7 @@ def test_state_size_is_what_the_check_says():
         attributes = {"span": "4", "chord": "1", "chordwise": "3", "spanwise": "4"}
         attributes |= {"wake_rows": str(rows)}
         assert air.state.size == _native.check_attributes("flaprig.uvlm", attributes)
-    assert flown(0, 11)[0].state.size - flown(0, 10)[0].state.size == 3 * 5 + 4
+    assert flown(0, 11)[0].state.size - flown(0, 10)[0].state.size == 3 * 5 + 4 + 1
 
 
 def test_zeros_are_no_wake():

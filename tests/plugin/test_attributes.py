@@ -34,6 +34,7 @@ LATTICE = {
     "wake_step": ("0", "one number from 1e-07 to 1000 s"),
     "wake_rows": ("-3", "a whole number from 1 to 100000"),
     "core": ("0", "one number above 0 and up to 2 mean chords"),
+    "wake_detail": ("-1", "a whole number from 0 to 100000"),
     "wake_fade": ("1.5", "one number from 0 to 1"),
     "shedding_fraction": ("1", "one number from 0.01 to 0.99"),
     "tip_inset": ("0.6", "one number from 0 to 0.5 strips"),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "../uvlm.hpp"
@@ -71,16 +72,19 @@ void Instance::draw(const mjModel*, const mjData*, mjvScene* scene, Memory memor
   // a scene with little room gets fewer and longer faces
   const int room = std::max(1, (scene->maxgeom - scene->ngeom) / (2 * n));
   const int skip = 1 + (rows - 1) / room;
+  const double oldest = std::accumulate(wake.ticks(), wake.ticks() + rows, 0.0);
+  double age = 0;
   for (int row = 0; row < rows; row += skip) {
     const int next = std::min(row + skip, rows);
     for (int j = 0; j < n; ++j) {
       const double g = wake.strengths()[row * n + j] / strongest;
-      const Colour rgba = colour(g, static_cast<double>(row) / rows);
+      const Colour rgba = colour(g, age / oldest);
       const Vec3 a = wake.vertex(row, j), b = wake.vertex(next, j);
       const Vec3 c = wake.vertex(next, j + 1), d = wake.vertex(row, j + 1);
       triangle(scene, a, b, c, rgba);
       triangle(scene, a, c, d, rgba);
     }
+    age = std::accumulate(wake.ticks() + row, wake.ticks() + next, age);
   }
 }
 
