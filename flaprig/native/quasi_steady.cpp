@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "clock.hpp"
-
 namespace flaprig {
 
 QuasiSteady::QuasiSteady(const Planform& planform, const QuasiSteadySettings& settings,
@@ -51,20 +49,22 @@ void QuasiSteady::add_translation(const Strip& s, double vx, double vz, double s
                                   Section& section, Wrench& load) const {
   if (speed < 1e-12) return;
   const double speed2 = speed * speed;
-  // between the chord, seen from the leading edge, and the motion: 0 edge on, pi tail first
-  const double alpha = std::atan2(std::abs(vz), -vx);
-  // on a wing that turns about its origin all strips meet the fluid at one angle: the sines are
-  // taken again only where it changes by more than rounding
+  const double ux = vx / speed, uz = vz / speed, side = vz > 0 ? -1 : 1;
+  // on a wing that turns about its origin all strips meet the fluid at one angle: it and its sines
+  // are taken again only where the direction changes by more than rounding
   constexpr double kSame = 1e-14;
-  if (!(std::abs(alpha - section.alpha) <= kSame)) section = {alpha, coefficients(alpha)};
+  if (!(std::abs(ux - section.ux) + std::abs(uz - section.uz) <= kSame)) {
+    // between the chord, seen from the leading edge, and the motion: 0 edge on, pi tail first
+    const double alpha = std::atan2(std::abs(vz), -vx);
+    section = {ux, uz, alpha, coefficients(alpha)};
+  }
   const LiftDrag c = section.at;
   const double force = 0.5 * density_ * speed2 * s.chord * s.width;
-  const double ux = vx / speed, uz = vz / speed, side = vz > 0 ? -1 : 1;
   // drag against the motion; lift across it, towards the side that the fluid is pushed from
   const double fx = force * (-c.drag * ux + c.lift * side * uz);
   const double fz = force * (-c.drag * uz - c.lift * side * ux);
   // centre of pressure from the leading edge (Dickson, Straw, Poelma & Dickinson 2006)
-  const double x = s.leading_edge + s.chord * (0.82 * alpha / M_PI + 0.05);
+  const double x = s.leading_edge + s.chord * (0.82 * section.alpha / M_PI + 0.05);
   load.force += {fx, 0, fz};
   load.torque += {s.radius * fz, -x * fz, -s.radius * fx};
 }
@@ -81,7 +81,6 @@ void QuasiSteady::add_rotation(const Strip& s, double speed, double spin, Wrench
 }
 
 Loads QuasiSteady::loads(const double*, const Motion& motion) const {
-  Stopwatch clock(Phase::kLoads);
   const Twist t = relative_to_wind(motion, wind_w_).twist;
   Loads loads;
   Section section;

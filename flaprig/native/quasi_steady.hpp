@@ -24,9 +24,9 @@ class QuasiSteady : public Air {
   struct Strip {
     double radius, chord, leading_edge, width;
   };
-  // coefficients at an angle of attack; neighbouring strips mostly share it
+  // a direction of motion and the coefficients there; neighbouring strips mostly share it
   struct Section {
-    double alpha = -1;
+    double ux = 0, uz = 0, alpha = 0;
     LiftDrag at{};
   };
   void add_translation(const Strip& strip, double vx, double vz, double speed, Section& section,
