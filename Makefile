@@ -38,9 +38,16 @@ stub: build
 	$(call stage,flaprig/native/_native.pyi,$(BIN)/python -m nanobind.stubgen -q \
 		-m flaprig.native._native -o flaprig/native/_native.pyi)
 
-bench: build
-	@printf '%s\n' '== benchmarks'
+# with the peer beside the extras asked for
+bench:
+	@$(MAKE) --no-print-directory build EXTRAS=$(EXTRAS)$(if $(findstring bench,$(EXTRAS)),,$(comma)bench)
+	@printf '%s\n' '== flaprig bench --all: some minutes, into docs/benchmarks.md'
+	@$(BIN)/python -m flaprig bench --all
+	@printf '%s\n' '== benchmarks/'
 	@$(BIN)/python -m pytest benchmarks -o 'python_files=bench_*.py' -p no:xdist --benchmark-enable --benchmark-only
+	@if $(BIN)/python -c 'import stable_baselines3' 2> /dev/null; then \
+		$(BIN)/python benchmarks/bench_vector.py; \
+	else echo 'benchmarks/bench_vector.py is left out: it needs the extra train'; fi
 
 clean:
 	rm -rf $(VENV) build dist demo_output .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks

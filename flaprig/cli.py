@@ -17,7 +17,7 @@ from typing import Annotated, Any
 import tyro
 from tyro.conf import FlagCreatePairsOff, OmitArgPrefixes, OmitSubcommandPrefixes, subcommand
 
-from flaprig.commands import check, demo, export, reproduce, simulate, twin, validate, view
+from flaprig.commands import bench, check, demo, export, reproduce, simulate, twin, validate, view
 from flaprig.report.folder import Folder
 
 FAILED, BAD_INPUT, STOPPED = 1, 2, 130
@@ -31,6 +31,7 @@ Command = (
     | Annotated[export.Export, subcommand("export")]
     | Annotated[reproduce.Reproduce, subcommand("reproduce")]
     | Annotated[validate.Validate, subcommand("validate")]
+    | Annotated[bench.Bench, subcommand("bench")]
     | Annotated[view.View, subcommand("view")]
     | Annotated[demo.Demo, subcommand("demo")]
 )
@@ -42,11 +43,15 @@ _RUN: dict[type, Callable[[Any, Folder], int | None]] = {
     reproduce.Reproduce: reproduce.run,
     validate.Validate: validate.run,
     validate.OneCase: validate.run,
+    bench.Bench: bench.run,
+    bench.OneBenchmark: bench.run,
     view.View: view.run,
     demo.Demo: demo.run,
 }
 # commands whose exit code is an answer
 _ANSWERS = (check.Check, validate.Validate, validate.OneCase)
+# commands whose parts have options of their own
+_PARSE = {"validate": validate.parse, "bench": bench.parse}
 _CONFIG = (OmitArgPrefixes, OmitSubcommandPrefixes, FlagCreatePairsOff)
 _ABOUT = "The digital twin of a robotic flapping wing. Angles are in degrees, all else in SI units."
 
@@ -95,14 +100,14 @@ def _run(args: Any, folder: Folder) -> int:
 
 
 def _parse(argv: list[str]) -> Any:
-    """The arguments of one subcommand; a case of `validate` has options of its own.
+    """The arguments of one subcommand; parts of some commands have options of their own.
 
     Raises:
         ValueError: what tyro says about wrong arguments, as one sentence.
         SystemExit: help was asked for and has been printed.
     """
-    if argv[:1] == ["validate"]:
-        return validate.parse(argv[1:], _ask)
+    if argv and argv[0] in _PARSE:
+        return _PARSE[argv[0]](argv[1:], _ask)
     return _ask(Command, "flaprig", argv, _ABOUT)
 
 

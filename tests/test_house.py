@@ -28,7 +28,7 @@ FLOORS = (
     ),
     ("tasks",),
     ("envs",),
-    ("report", "validation", "commands", "demo", "cli", "__init__", "__main__"),
+    ("report", "validation", "benchmark", "commands", "demo", "cli", "__init__", "__main__"),
 )
 FLOOR = {room: level for level, rooms in enumerate(FLOORS) for room in rooms}
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, make_dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 from rich.console import Console
 from tyro.conf import Positional, arg
 
-import flaprig
 from flaprig import _checks as check
 from flaprig.commands.progress import progress
 from flaprig.commands.run_output import timed
+from flaprig.commands.suites import docs, one_alone, with_parameters
 from flaprig.report.folder import Folder
 from flaprig.report.numbers import as_json
 from flaprig.report.validation_page import page
@@ -70,15 +70,6 @@ class OneCase:
         return getattr(self, "parameters")  # noqa: B009  # the field of the subclass
 
 
-def one_case(name: str) -> type[OneCase]:
-    """OneCase with the parameters of that case. ValueError when there is no such case."""
-    kind = case_named(name)
-    parameters = ("parameters", kind, field(default_factory=kind))
-    made = make_dataclass(kind.__name__, [parameters], bases=(OneCase,), frozen=True)
-    made.__doc__ = f"{kind.__doc__}\n\n{OneCase.__doc__}"
-    return made
-
-
 def parse(words: Sequence[str], ask: Callable[[type, str, list[str]], Any]) -> Any:
     """Validate, or OneCase where one name comes first and no other.
 
@@ -89,15 +80,11 @@ def parse(words: Sequence[str], ask: Callable[[type, str, list[str]], Any]) -> A
     Raises:
         ValueError: wrong arguments.
     """
-    names = [word for word in words if not word.startswith("-")]
-    alone = (
-        bool(words)
-        and not words[0].startswith("-")
-        and (len(words) == 1 or words[1].startswith("-"))
-    )
-    if not alone or "--all" in words:
+    name = one_alone(words)
+    if name is None:
         return ask(Validate, "flaprig validate", list(words))
-    return ask(one_case(names[0]), f"flaprig validate {names[0]}", list(words[1:]))
+    kind = with_parameters(case_named(name), OneCase)
+    return ask(kind, f"flaprig validate {name}", list(words[1:]))
 
 
 def run(args: Validate | OneCase, folder: Folder) -> int:
@@ -117,16 +104,8 @@ def run(args: Validate | OneCase, folder: Folder) -> int:
         print_cases(Console(), CASES)
         return WITHIN
     if args.all and not folder:
-        folder.path = _docs()
+        folder.path = docs("validate")
     return _run(cases, args.json, folder, everything=args.all)
-
-
-def _docs() -> Path:
-    """The folder docs/ of the clone; a wheel carries none."""
-    docs = Path(flaprig.__file__).resolve().parents[1] / "docs"
-    if not docs.is_dir():
-        raise ValueError("validate: --out must be given, since docs/ is not here")
-    return docs
 
 
 def _run(cases: Sequence[Case], as_object: bool, folder: Folder, everything: bool = False) -> int:

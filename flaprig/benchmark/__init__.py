@@ -1,0 +1,1 @@
+"""flaprig: the digital twin of a robotic flapping wing."""
