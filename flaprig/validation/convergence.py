@@ -117,7 +117,7 @@ class Convergence:
     claim: ClassVar[str] = "refinement of the rig's loads, and their uncertainty"
 
     cycles: int = 5
-    neighbours: int = 4
+    neighbours: int = 8
 
     def run(self, progress: Progress | None = None) -> Outcome:
         """Run the case. ValueError for a parameter out of range."""
