@@ -55,9 +55,7 @@ def simulate_batch(
     return [results[k] for k in range(len(strokes))]
 
 
-def _alike(
-    wing: Wing, strokes: Sequence[Stroke], model: AirModel, fluid: Fluid
-) -> list[list[int]]:
+def _alike(wing: Wing, strokes: Sequence[Stroke], model: AirModel, fluid: Fluid) -> list[list[int]]:
     """Indices of the strokes that can share one native model."""
     groups: dict[tuple[tuple[str, str], ...], list[int]] = {}
     for k, stroke in enumerate(strokes):

@@ -3,13 +3,14 @@
 from flaprig.aero.air_model import SWEEP_AMPLITUDE, AirModel
 from flaprig.aero.quasi_steady import QuasiSteady
 from flaprig.aero.suction_law import SuctionLaw
-from flaprig.aero.uvlm import SUCTION_EFFICIENCY, UVLM, Rate
+from flaprig.aero.uvlm import SUCTION_EFFICIENCY, UVLM, Precision, Rate
 
 __all__ = [
     "SUCTION_EFFICIENCY",
     "SWEEP_AMPLITUDE",
     "UVLM",
     "AirModel",
+    "Precision",
     "QuasiSteady",
     "Rate",
     "SuctionLaw",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, ClassVar, Self
@@ -29,6 +28,13 @@ class Rate(StrEnum):
     RAMPED = "ramped"
     BACKWARD = "backward"
     SECOND_ORDER = "second_order"
+
+
+class Precision(StrEnum):
+    """Of the velocities that move the wake; loads always have double precision."""
+
+    SINGLE = "single"
+    DOUBLE = "double"
 
 
 @dataclass(frozen=True)
@@ -60,6 +66,8 @@ class UVLM:
             the bound one, as a leading-edge vortex builds up; 0, the paper's model, has no lag.
         rate: how dG/dt is told from the last steps: "ramped", smooth but a step and a half late;
             "backward", the last difference (Katz & Plotkin); "second_order".
+        precision: of the roll-up's velocities: "single", or "double", at half the speed, for
+            checking.
         threads: threads of the wake's roll-up; results do not depend on it.
 
     Raises:
@@ -80,6 +88,7 @@ class UVLM:
     side_suction_efficiency: float = 0.0
     circulation_lag: float = 0.0
     rate: Rate = Rate.RAMPED
+    precision: Precision = Precision.SINGLE
     threads: int = 1
     plugin: ClassVar[str] = "flaprig.uvlm"
     parts: ClassVar[tuple[str, str]] = ("potential", "suction")
@@ -103,6 +112,7 @@ class UVLM:
         check.in_range(owner, "side_suction_efficiency", self.side_suction_efficiency, 0, 10)
         check.in_range(owner, "circulation_lag", self.circulation_lag, 0, 10, "chords")
         check.one_of(owner, "rate", self.rate, Rate)
+        check.one_of(owner, "precision", self.precision, Precision)
         check.whole(owner, "threads", self.threads, 1, 64)
 
     @classmethod
@@ -170,7 +180,7 @@ class UVLM:
             "spanwise": int(self.spanwise),
             "wake_step": float(1.0 / (frequency * self.steps_per_cycle)),
             "wake_rows": max(1, round(self.wake_cycles * self.steps_per_cycle)),
-            "wake_detail": math.ceil(self.wake_detail * self.steps_per_cycle),
+            "wake_detail": self._detail_rows,
             "wake_fade": float(self.wake_fade),
             "core": float(self.core),
             "shedding_fraction": float(self.shedding_fraction),
@@ -180,7 +190,14 @@ class UVLM:
             "side_suction_efficiency": float(self.side_suction_efficiency),
             "circulation_lag": float(self.circulation_lag),
             "rate": Rate(self.rate),
+            "precision": Precision(self.precision),
             "threads": int(self.threads),
         }
-        text = {n: v.value if isinstance(v, Rate) else repr(v) for n, v in settings.items()}
+        text = {n: v.value if isinstance(v, StrEnum) else repr(v) for n, v in settings.items()}
         return geometry_attributes(wing, fluid) | text
+
+    @property
+    def _detail_rows(self) -> int:
+        if self.wake_detail == 0:
+            return 0
+        return max(1, round(self.wake_detail * self.steps_per_cycle))

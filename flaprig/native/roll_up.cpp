@@ -14,7 +14,8 @@ constexpr int kLongest = 4;
 
 }  // namespace
 
-RollUp::RollUp(const Uvlm& air, Wake& wake, const Motion& pose)
+template <class T>
+RollUp<T>::RollUp(const Uvlm& air, Wake& wake, const Motion& pose)
     : air_(air),
       wake_(wake),
       bound_(air.lattice().chordwise() + 1),
@@ -28,7 +29,8 @@ RollUp::RollUp(const Uvlm& air, Wake& wake, const Motion& pose)
 
 // bound rings, the first wake rings and the frozen ones are one sheet: the trailing edge cancels by
 // itself
-void RollUp::place(const Motion& pose) {
+template <class T>
+void RollUp<T>::place(const Motion& pose) {
   const int n = wake_.strips;
   const double scale = air_.settings().core / air_.core();  // lengths in mean chords
   whole_.resize(bound_ + rows_ - 1, n);
@@ -36,9 +38,9 @@ void RollUp::place(const Motion& pose) {
     const int i = v / columns_, j = v % columns_;
     const Vec3 p = i < bound_ ? pose.rotation * air_.lattice().vertex(i, j)
                               : wake_.vertex(i - bound_, j) - pose.position_w;
-    whole_.x[v] = static_cast<float>(scale * p.x);
-    whole_.y[v] = static_cast<float>(scale * p.y);
-    whole_.z[v] = static_cast<float>(scale * p.z);
+    whole_.x[v] = static_cast<T>(scale * p.x);
+    whole_.y[v] = static_cast<T>(scale * p.y);
+    whole_.z[v] = static_cast<T>(scale * p.z);
   }
   const double* g = wake_.circulation();
   const auto first = std::copy_n(g, (bound_ - 1) * n, whole_.circulation.begin());
@@ -47,9 +49,10 @@ void RollUp::place(const Motion& pose) {
 }
 
 // of the whole, between two rows of vertices
-Sheet<float> RollUp::part(int first, int last) const {
-  Sheet<float> part;
-  const auto copy = [&](const std::vector<float>& from, std::vector<float>& to, int end, int width) {
+template <class T>
+Sheet<T> RollUp<T>::part(int first, int last) const {
+  Sheet<T> part;
+  const auto copy = [&](const std::vector<T>& from, std::vector<T>& to, int end, int width) {
     to.assign(from.begin() + first * width, from.begin() + end * width);
   };
   part.rings = last - first, part.strips = wake_.strips;
@@ -61,13 +64,15 @@ Sheet<float> RollUp::part(int first, int last) const {
 }
 
 // ticks between two findings of an old row's far velocity
-int RollUp::every(int row) const {
+template <class T>
+int RollUp<T>::every(int row) const {
   int every = 2;
   for (double age = 2.0 * wake_.detail; age <= age_[row] && every < kLongest; age *= 2) every *= 2;
   return every;
 }
 
-RollUp::Rows RollUp::due() const {
+template <class T>
+typename RollUp<T>::Rows RollUp<T>::due() const {
   Rows rows;
   for (int row = young_; row < rows_; ++row) {
     const double ago = wake_.found(row);
@@ -77,15 +82,16 @@ RollUp::Rows RollUp::due() const {
 }
 
 // one a vertex [m/s]
-std::vector<Vec3> RollUp::velocity(const Rows& rows, const Sheet<float>& by) const {
+template <class T>
+std::vector<Vec3> RollUp<T>::velocity(const Rows& rows, const Sheet<T>& by) const {
   const int count = static_cast<int>(rows.size()) * columns_;
   const double scale = air_.settings().core / air_.core();
-  Points<float> points(count), induced(count);
+  Points<T> points(count), induced(count);
   for (int v = 0; v < count; ++v) {
     const int at = (bound_ + rows[v / columns_]) * columns_ + v % columns_;
     points.x[v] = whole_.x[at], points.y[v] = whole_.y[at], points.z[v] = whole_.z[at];
   }
-  induced_velocity(by, static_cast<float>(air_.settings().core), points, induced,
+  induced_velocity(by, static_cast<T>(air_.settings().core), points, induced,
                    air_.settings().threads);
   std::vector<Vec3> velocity(count);
   // circulation / length, both in metres here and in chords there
@@ -93,7 +99,8 @@ std::vector<Vec3> RollUp::velocity(const Rows& rows, const Sheet<float>& by) con
   return velocity;
 }
 
-void RollUp::find_far() {
+template <class T>
+void RollUp<T>::find_far() {
   const Rows rows = due();
   const int near = std::min(kNear, wake_.detail);
   const std::vector<Vec3> now = velocity(rows, part(bound_ + near, bound_ + rows_ - 1));
@@ -110,13 +117,15 @@ void RollUp::find_far() {
   for (int row : rows) wake_.found(row) = 0;
 }
 
-Vec3 RollUp::far(int row, int j) const {
+template <class T>
+Vec3 RollUp<T>::far(int row, int j) const {
   if (row < young_) return {0, 0, 0};
   const double ago = wake_.found(row), *f = wake_.far(row) + 3 * j, *d = wake_.drift(row) + 3 * j;
   return {f[0] + ago * d[0], f[1] + ago * d[1], f[2] + ago * d[2]};
 }
 
-void RollUp::move(const Rows& rows, const Sheet<float>& by, double elapsed) {
+template <class T>
+void RollUp<T>::move(const Rows& rows, const Sheet<T>& by, double elapsed) {
   if (rows.empty()) return;
   const std::vector<Vec3> near = velocity(rows, by);
   for (size_t v = 0; v < near.size(); ++v) {
@@ -126,7 +135,8 @@ void RollUp::move(const Rows& rows, const Sheet<float>& by, double elapsed) {
   }
 }
 
-void RollUp::run(double elapsed) {
+template <class T>
+void RollUp<T>::run(double elapsed) {
   Rows young(young_);
   std::iota(young.begin(), young.end(), 0);
   move(young, whole_, elapsed);
@@ -142,5 +152,8 @@ void RollUp::run(double elapsed) {
   }
   for (int row = young_; row < rows_; ++row) wake_.found(row) += 1;
 }
+
+template class RollUp<float>;
+template class RollUp<double>;
 
 }  // namespace flaprig

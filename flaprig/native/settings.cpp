@@ -54,6 +54,8 @@ UvlmSettings read_uvlm(const Reader& read) {
   s.tip_inset = read.number("tip_inset", s.tip_inset, {0, 0.5}, "strips");
   s.rate = static_cast<UvlmSettings::Rate>(
       read.choice("rate", {"ramped", "backward", "second_order"}));
+  s.precision =
+      static_cast<UvlmSettings::Precision>(read.choice("precision", {"single", "double"}));
   s.suction_efficiency = read.number("suction_efficiency", s.suction_efficiency, {0, 10}, "");
   s.suction_factor = read.number("suction_factor", s.suction_factor, {0, 2}, "");
   s.side_suction_efficiency =
@@ -148,7 +150,7 @@ const std::vector<const char*>& attribute_names(Model model) {
       "wake_step", "wake_rows",   "wake_detail",       "wake_fade",   "core",
       "shedding_fraction",        "tip_inset",         "rate",
       "suction_efficiency",       "suction_factor",    "side_suction_efficiency",
-      "circulation_lag",          "threads"};
+      "circulation_lag",          "precision",         "threads"};
   return model == Model::kUvlm ? uvlm : quasi_steady;
 }
 

@@ -17,6 +17,8 @@ struct UvlmSettings {
   // how dGw/dt is told from the last two intervals: ramped from the one to the other, a step and a
   // half late but smooth (docs/model.md); the last one (Katz & Plotkin); carried on to second order
   enum class Rate { kRamped, kBackward, kSecondOrder };
+  // of the roll-up's velocities
+  enum class Precision { kSingle, kDouble };
   int chordwise = 6, spanwise = 12;
   double wake_step = 0.05;             // time between wake rows [s]
   int wake_rows = 100;                 // frozen rows kept
@@ -30,6 +32,7 @@ struct UvlmSettings {
   double suction_factor = 1;           // 1: eq. 6 as printed; 4/pi: exact flat-plate suction
   double side_suction_efficiency = 0;  // the same of the tips, as a share of the exact suction
   double circulation_lag = 0;          // travel in which the loads' circulation builds up [chords]
+  Precision precision = Precision::kSingle;
   int threads = 1;
 };
 

@@ -42,15 +42,24 @@ void Tick::run() {
   if (wake_.started() == 0) {
     begin();
   } else {
-    Stopwatch roll_up(Phase::kRollUp);
-    RollUp(air_, wake_, read_pose(wake_.pose())).run(elapsed_);
+    Stopwatch clock(Phase::kRollUp);
+    roll_up();
     shed();
   }
-  Stopwatch wing(Phase::kWing);
+  Stopwatch clock(Phase::kWing);
   wake_stream();
   kutta_influence();
   solve();
   remember();
+}
+
+void Tick::roll_up() {
+  const Motion pose = read_pose(wake_.pose());
+  if (air_.settings().precision == UvlmSettings::Precision::kDouble) {
+    RollUp<double>(air_, wake_, pose).run(elapsed_);
+  } else {
+    RollUp<float>(air_, wake_, pose).run(elapsed_);
+  }
 }
 
 Vec3 Tick::trailing_edge_w(int j) const {

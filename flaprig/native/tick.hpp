@@ -16,6 +16,7 @@ class Tick {
   bool trailing_edge_jumped() const;
   Vec3 trailing_edge_w(int j) const;
   void begin();
+  void roll_up();
   void shed();
   void wake_stream();
   void kutta_influence();

@@ -26,6 +26,7 @@ BAD_UVLM = {
     "side_suction_efficiency": [-0.1, 11, math.nan],
     "circulation_lag": [-0.1, 11, math.inf],
     "rate": ["late", None, 1],
+    "precision": ["half", None, 2],
     "threads": [0, 65, 1.5],
 }
 BAD_QUASI_STEADY = {

@@ -57,3 +57,14 @@ def test_whole_wake_stays_whole():
     ours, exact = means(strokes, 3, **whole), means(strokes, 3, wake_detail=0, **whole)
     spread = exact.std(axis=0, ddof=1)
     assert np.all(np.abs(ours.mean(axis=0) - exact.mean(axis=0))[:, 2] < 1.2 * spread[:, 2])
+
+
+def test_single_precision_is_near_double_first_and_then_the_spread():
+    near = 1 + 1e-3 * np.linspace(-0.5, 0.5, 12)
+    strokes = [replace(SINUSOID, pitch_amplitude=n * SINUSOID.pitch_amplitude) for n in near]
+    plain = {"chordwise": 4, "spanwise": 8, "wake_detail": 0}
+    ours, exact = means(strokes, 3, **plain), means(strokes, 3, precision="double", **plain)
+    assert np.abs(ours / exact - 1)[..., 0].max() < 2e-5
+    assert np.any(ours != exact)
+    spread = exact.std(axis=0, ddof=1)
+    assert np.all(np.abs(ours.mean(axis=0) - exact.mean(axis=0))[:, 1:] < 1.2 * spread[:, 1:])

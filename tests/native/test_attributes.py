@@ -82,6 +82,7 @@ CASES = [
     (QS, WING | {"rotation": "1"}, 'rotation must be false or true, got "1"'),
     (QS, WING | {"added_mass": "True"}, 'added_mass must be false or true, got "True"'),
     (UVLM, WING | {"rate": "late"}, "rate must be ramped, backward or second_order"),
+    (UVLM, WING | {"precision": "half"}, "precision must be single or double"),
     (QS, WING | {"coefficients": "lee"}, "coefficients must be dickinson1999, lee2016 or table"),
     (QS, WING | {"coefficients": "lee2016"}, "reynolds must be given with coefficients lee2016"),
     (

@@ -39,6 +39,7 @@ LATTICE = {
     "shedding_fraction": ("1", "one number from 0.01 to 0.99"),
     "tip_inset": ("0.6", "one number from 0 to 0.5 strips"),
     "rate": ("second", "ramped, backward or second_order"),
+    "precision": ("half", "single or double"),
     "suction_efficiency": ("inf", "one number from 0 to 10"),
     "suction_factor": ("3", "one number from 0 to 2"),
     "side_suction_efficiency": ("11", "one number from 0 to 10"),

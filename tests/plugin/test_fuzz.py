@@ -45,6 +45,7 @@ PLAUSIBLE = {
     "shedding_fraction": ["0.25", "0.01", "0.99"],
     "tip_inset": ["0", "0.25", "0.5"],
     "rate": ["ramped", "backward", "second_order"],
+    "precision": ["single", "double"],
     "side_suction_efficiency": ["0", "1", "10"],
     "circulation_lag": ["0", "0.125", "10"],
     "suction_efficiency": ["0", "1", "10"],
