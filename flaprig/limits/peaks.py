@@ -7,6 +7,8 @@ quotients of the acceleration. Such a quotient is a mean of the jerk, so it neve
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +23,8 @@ Array = NDArray[np.float64]
 
 # samples of a cycle from which the search begins, and of one interval of a sampled stroke
 SAMPLES, SAMPLES_PER_INTERVAL = 4096, 8
+# strokes whose peaks are remembered: one is projected, accepted and judged in a row
+KEPT = 4
 # candidates that are followed for each extreme
 CANDIDATES = 24
 # steps of the golden section: 2/4096 of a cycle shrinks to rounding
@@ -79,6 +83,25 @@ def peaks(stroke: Stroke) -> dict[str, JointPeaks]:
         ValueError: not a stroke.
     """
     check_stroke("peaks", stroke)
+    known: Any = stroke
+    return dict(_remembered(known) if _is_a_value(stroke) else _peaks(stroke))
+
+
+def _is_a_value(stroke: Stroke) -> bool:
+    """Whether equal strokes stay equal: a user's own may change."""
+    made = getattr(type(stroke), "__dataclass_params__", None)
+    try:
+        return made is not None and made.frozen and made.eq and hash(stroke) is not None
+    except TypeError:
+        return False
+
+
+@lru_cache(maxsize=KEPT)
+def _remembered(stroke: Stroke) -> dict[str, JointPeaks]:
+    return _peaks(stroke)
+
+
+def _peaks(stroke: Stroke) -> dict[str, JointPeaks]:
     count = SAMPLES
     if isinstance(stroke, SampledStroke):
         count = max(count, SAMPLES_PER_INTERVAL * len(stroke.time))
@@ -163,11 +186,18 @@ def _extremes(stroke: Stroke, motion: Motion) -> Array:
         values = _table(stroke.motion(time))
         return np.asarray(np.einsum("s,jksjkc->sjkc", signs, values))
 
+    reach = _GOLDEN * (high - low)
+    left, right = high - reach, low + reach
+    before, after = at(left), at(right)
     for _ in range(SECTIONS):
-        reach = _GOLDEN * (high - low)
-        left, right = high - reach, low + reach
-        rising = at(left) < at(right)
+        rising = before < after
         low, high = np.where(rising, left, low), np.where(rising, high, right)
+        reach = _GOLDEN * (high - low)
+        # one of the points inside stays
+        new = np.where(rising, low + reach, high - reach)
+        value = at(new)
+        left, right = np.where(rising, right, new), np.where(rising, new, left)
+        before, after = np.where(rising, after, value), np.where(rising, value, before)
     # beside a jump the better side is a sample
     return np.asarray(np.maximum(at(0.5 * (low + high)), at(top * step)).max(axis=-1))
 
@@ -180,13 +210,13 @@ def _jerk(stroke: Stroke, motion: Motion) -> Array:
     low = np.argpartition(quotient, -CANDIDATES, axis=-1)[:, -CANDIDATES:] * step
 
     def at(time: Array) -> Array:
-        return np.asarray(np.einsum("jjc->jc", _table(stroke.motion(time))[:, 2]))
+        return np.asarray(np.einsum("jkjc->kjc", _table(stroke.motion(time))[:, 2]))
 
     history = []
     for _ in range(HALVINGS):
         step *= 0.5
         # halves of the cell and of its neighbours: the largest jerk may lie on an edge
-        ends = np.stack([at(low + k * step) for k in range(-1, 4)])
+        ends = at(low + step * np.arange(-1, 4)[:, None, None])
         quotients = np.abs(np.diff(ends, axis=0)) / step
         low = low + (np.argmax(quotients, axis=0) - 1) * step
         history.append(quotients.max(axis=0))

@@ -89,3 +89,27 @@ def test_resting_pitch_needs_nothing():
     found = peaks(FourierStroke(0.2, [-A], [0.0], [0.0], [0.0], pitch_mean=0.3))["pitch"]
     assert found.position == (0.3, 0.3)
     assert (found.velocity, found.acceleration, found.jerk) == (0.0, 0.0, 0.0)
+
+
+class Drifting:
+    """A user's own stroke, which changes."""
+
+    frequency, period = 0.2, 5.0
+
+    def __init__(self, size):
+        self.size = size
+
+    def __getattr__(self, name):
+        return getattr(SunTangStroke(0.2, self.size, B), name)
+
+
+def test_a_stroke_that_changes_is_searched_anew():
+    stroke = Drifting(A)
+    assert peaks(stroke)["sweep"].position[1] == pytest.approx(A)
+    stroke.size = 0.5
+    assert peaks(stroke)["sweep"].position[1] == pytest.approx(0.5)
+
+
+def test_what_is_given_out_is_the_callers(sine):
+    peaks(sine).clear()
+    assert set(peaks(sine)) == {"sweep", "pitch"}
