@@ -12,8 +12,8 @@ from flaprig.wing import RIG_WING
 
 SINUSOID = SunTangStroke(0.2, np.pi / 3, np.pi / 4)
 FAST_FLIP = SunTangStroke(0.2, np.pi / 3, np.pi / 4, 0.5, 0.16)
-# standard deviations among neighbours within which means of a chaotic wake count as the same; by the
-# processor's vectors the largest difference here is 1.0 (AVX) or 1.5 (128 bits)
+# standard deviations among neighbours within which means of a chaotic wake count as the same; the
+# largest difference here is 1.0 with AVX vectors and 1.5 with 128 bits
 SPREADS = 2.0
 
 
