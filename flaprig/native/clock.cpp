@@ -10,7 +10,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::atomic<bool> counting{false};
-std::array<std::atomic<std::int64_t>, 3> nanoseconds{};
+std::array<std::atomic<std::int64_t>, 4> nanoseconds{};
 
 }  // namespace
 
@@ -18,7 +18,8 @@ std::map<std::string, double> clocks() {
   const auto seconds = [](Phase p) { return 1e-9 * static_cast<double>(nanoseconds[int(p)]); };
   return {{"roll_up", seconds(Phase::kRollUp)},
           {"wing", seconds(Phase::kWing)},
-          {"loads", seconds(Phase::kLoads)}};
+          {"loads", seconds(Phase::kLoads)},
+          {"plugin", seconds(Phase::kPlugin)}};
 }
 
 void reset_clocks() {

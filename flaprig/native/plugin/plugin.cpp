@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "../clock.hpp"
 #include "registry.hpp"
 
 namespace flaprig {
@@ -116,6 +117,7 @@ void rebuild_mass(const mjModel* m, mjData* d, int id) {
 
 template <Model model>
 void compute(const mjModel* m, mjData* d, int id, int capability) {
+  Stopwatch clock(Phase::kPlugin);
   Instance* instance = instance_of<model>(m, d, id);
   if (capability == mjPLUGIN_SENSOR) {
     instance->sense(m, d, memory_of(m, d, id), true);
@@ -127,6 +129,7 @@ void compute(const mjModel* m, mjData* d, int id, int capability) {
 
 template <Model model>
 void advance(const mjModel* m, mjData* d, int id) {
+  Stopwatch clock(Phase::kPlugin);
   Instance* instance = instance_of<model>(m, d, id);
   char message[kMessage];
   const bool good = guarded(m, id, model, message, [&] {
