@@ -14,7 +14,8 @@ from flaprig.validation.peer import MISSING
 GRID = {"chordwise": 1, "spanwise": 2, "steps_per_cycle": 8}
 ONE = GRID | {"cycles": 1, "turns": 1}
 TINY = {
-    "peer": GRID | {"cycles": 2, "threads": (1,), "repeats": 1, "peer_cycles": (1,)},
+    "peer": GRID
+    | {"cycles": 2, "threads": (1,), "repeats": 1, "peer_repeats": 1, "peer_cycles": (1,)},
     "dial": GRID
     | {"details": (0.25, 0.5), "kinematics": 2, "neighbours": 2, "cycles": 2, "turns": 1},
     "growth": {"steps": (8, 16), "spanwise": (2, 4), "steps_per_cycle": 8, "turns": 1},
