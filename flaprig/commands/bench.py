@@ -15,16 +15,12 @@ from flaprig.benchmark.benchmark import Benchmark, command_of
 from flaprig.benchmark.machine import machine
 from flaprig.benchmark.outcome import Outcome
 from flaprig.benchmark.suite import BENCHMARKS, benchmark_named
-from flaprig.commands.progress import progress
-from flaprig.commands.run_output import timed
-from flaprig.commands.suites import docs, one_alone, with_parameters
+from flaprig.commands.suites import Page, docs, hand_out, one_alone, run_each, with_parameters
 from flaprig.report.benchmark_page import page
 from flaprig.report.benchmark_table import print_machine, print_outcome
 from flaprig.report.folder import Folder
-from flaprig.report.numbers import as_json
 
-# where the page goes inside of its folder
-PAGE, PICTURES = "benchmarks.md", "images/benchmarks"
+PAGE = Page("benchmarks.md", "images/benchmarks")
 
 _OUT = arg(metavar="DIR", help_behavior_hint="(optional)")
 
@@ -102,38 +98,24 @@ def run(args: Bench | OneBenchmark, folder: Folder) -> None:
     chosen = [benchmark_named(name)() for name in dict.fromkeys(args.name) or BENCHMARKS]
     if args.all and not folder:
         folder.path = docs("bench")
-    return _run(chosen, args.json, folder, everything=args.all)
+    return _run(chosen, args.json, folder, PAGE if args.all else None)
 
 
 def _run(
-    chosen: Sequence[Benchmark], as_object: bool, folder: Folder, everything: bool = False
+    chosen: Sequence[Benchmark], as_object: bool, folder: Folder, whole: Page | None = None
 ) -> None:
-    folder.create()
-    if folder and everything:
-        assert folder.path is not None
-        (folder.path / PICTURES).mkdir(parents=True, exist_ok=True)
-    console, found, here = Console(), [], machine()
-    for benchmark in chosen:
-        with timed() as spent, progress(benchmark.name) as told:
-            outcome = benchmark.run(told)
-        found.append((benchmark, outcome, spent["wall_time_s"]))
-        if outcome.draw is not None:
-            place = f"{PICTURES}/{benchmark.name}.png" if everything else f"{benchmark.name}.png"
-            folder.write(place, outcome.draw)
-        if not as_object:
-            if len(found) == 1:
-                print_machine(console, here)
-            print_outcome(console, benchmark, outcome, spent["wall_time_s"])
-    summary = _summary(here, found)
-    if folder and everything:
-        folder.write_text(PAGE, page(here, found, PICTURES))
-    elif folder:
-        folder.write_text("summary.json", as_json(summary) + "\n")
-    if as_object:
-        print(as_json(summary))
-    elif folder:
-        written = ", ".join(path.name for path in folder.written)
-        console.print(f"Written to {folder.path}: {written}", highlight=False, markup=False)
+    console, here = Console(), machine()
+
+    def show(benchmark: Benchmark, outcome: Outcome, seconds: float) -> None:
+        if as_object:
+            return
+        if benchmark is chosen[0]:
+            print_machine(console, here)
+        print_outcome(console, benchmark, outcome, seconds)
+
+    found = run_each(chosen, folder, whole, show)
+    text = page(here, found, whole.pictures) if whole else ""
+    hand_out(folder, _summary(here, found), as_object, whole, text)
 
 
 def _summary(

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import field, make_dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, make_dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
+from rich.console import Console
+
 import flaprig
+from flaprig.commands.progress import progress
+from flaprig.commands.run_output import timed
+from flaprig.report.folder import Folder
+from flaprig.report.numbers import as_json
 
 Base = TypeVar("Base")
 
@@ -41,3 +47,69 @@ def docs(command: str) -> Path:
     if not folder.is_dir():
         raise ValueError(f"{command}: --out must be given, since docs/ is not here")
     return folder
+
+
+@dataclass(frozen=True)
+class Page:
+    """Where all parts together go inside of their folder.
+
+    Attributes:
+        name: of the page's file.
+        pictures: folder of the pictures, beside the page.
+    """
+
+    name: str
+    pictures: str
+
+
+def run_each(
+    parts: Sequence[Any],
+    folder: Folder,
+    page: Page | None,
+    show: Callable[[Any, Any, float], None],
+) -> list[tuple[Any, Any, float]]:
+    """Run the parts one by one and write their pictures.
+
+    Args:
+        parts: what has a name and runs.
+        folder: for the pictures.
+        page: where they go; None: a picture lies in the folder itself.
+        show: is given each part, its outcome and its seconds.
+
+    Returns:
+        The same of all parts.
+    """
+    folder.create()
+    if folder.path is not None and page:
+        (folder.path / page.pictures).mkdir(parents=True, exist_ok=True)
+    found = []
+    for part in parts:
+        with timed() as spent, progress(part.name) as told:
+            outcome = part.run(told)
+        found.append((part, outcome, spent["wall_time_s"]))
+        if outcome.draw is not None:
+            place = f"{page.pictures}/{part.name}.png" if page else f"{part.name}.png"
+            folder.write(place, outcome.draw)
+        show(*found[-1])
+    return found
+
+
+def hand_out(folder: Folder, summary: Any, as_object: bool, page: Page | None, text: str) -> None:
+    """Write the page or the summary, and tell.
+
+    Args:
+        folder: for the file; may be none.
+        summary: of all parts, for JSON.
+        as_object: print the summary and nothing else.
+        page: which page is written instead of summary.json.
+        text: of the page.
+    """
+    if folder and page:
+        folder.write_text(page.name, text)
+    elif folder:
+        folder.write_text("summary.json", as_json(summary) + "\n")
+    if as_object:
+        print(as_json(summary))
+    elif folder:
+        written = ", ".join(path.name for path in folder.written)
+        Console().print(f"Written to {folder.path}: {written}", highlight=False, markup=False)

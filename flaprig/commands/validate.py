@@ -11,11 +11,8 @@ from rich.console import Console
 from tyro.conf import Positional, arg
 
 from flaprig import _checks as check
-from flaprig.commands.progress import progress
-from flaprig.commands.run_output import timed
-from flaprig.commands.suites import docs, one_alone, with_parameters
+from flaprig.commands.suites import Page, docs, hand_out, one_alone, run_each, with_parameters
 from flaprig.report.folder import Folder
-from flaprig.report.numbers import as_json
 from flaprig.report.validation_page import page
 from flaprig.report.validation_table import print_cases, print_outcome
 from flaprig.validation.case import Case
@@ -24,8 +21,7 @@ from flaprig.validation.suite import CASES, case_named
 
 # exit codes
 WITHIN, OUTSIDE = 0, 1
-# where the page goes inside of its folder
-PAGE, PICTURES = "validation.md", "images/validation"
+PAGE = Page("validation.md", "images/validation")
 
 _OUT = arg(metavar="DIR", help_behavior_hint="(optional)")
 
@@ -105,34 +101,18 @@ def run(args: Validate | OneCase, folder: Folder) -> int:
         return WITHIN
     if args.all and not folder:
         folder.path = docs("validate")
-    return _run(cases, args.json, folder, everything=args.all)
+    return _run(cases, args.json, folder, PAGE if args.all else None)
 
 
-def _run(cases: Sequence[Case], as_object: bool, folder: Folder, everything: bool = False) -> int:
-    folder.create()
-    if folder and everything:
-        assert folder.path is not None
-        (folder.path / PICTURES).mkdir(parents=True, exist_ok=True)
-    console, found = Console(), []
-    for case in cases:
-        with timed() as spent, progress(case.name) as told:
-            outcome = case.run(told)
-        found.append((case, outcome, spent["wall_time_s"]))
-        if outcome.draw is not None:
-            place = f"{PICTURES}/{case.name}.png" if everything else f"{case.name}.png"
-            folder.write(place, outcome.draw)
+def _run(cases: Sequence[Case], as_object: bool, folder: Folder, whole: Page | None = None) -> int:
+    console = Console()
+
+    def show(case: Case, outcome: Outcome, seconds: float) -> None:
         if not as_object:
-            print_outcome(console, case, outcome, spent["wall_time_s"])
-    summary = _summary(found)
-    if folder and everything:
-        folder.write_text(PAGE, page(found, PICTURES))
-    elif folder:
-        folder.write_text("summary.json", as_json(summary) + "\n")
-    if as_object:
-        print(as_json(summary))
-    elif folder:
-        written = ", ".join(path.name for path in folder.written)
-        console.print(f"Written to {folder.path}: {written}", highlight=False, markup=False)
+            print_outcome(console, case, outcome, seconds)
+
+    found = run_each(cases, folder, whole, show)
+    hand_out(folder, _summary(found), as_object, whole, page(found, PAGE.pictures) if whole else "")
     return OUTSIDE if any(outcome.missed for _, outcome, _ in found) else WITHIN
 
 

@@ -99,7 +99,7 @@ class RuckigFilter:
         return self.ticks * self.interval
 
     def accept(self, stroke: Stroke) -> None:
-        """Check a stroke ahead of time; `follow` then need not (8 ms).
+        """Check a stroke ahead of time; `follow` then need not (some milliseconds).
 
         Raises:
             ValueError: not a stroke, or one beyond the limits; the sentence names the bound.

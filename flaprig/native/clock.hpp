@@ -11,8 +11,8 @@ enum class Phase { kRollUp, kWing, kLoads, kPlugin };
 
 // seconds since the last reset, under "roll_up" (the wake moves itself), "wing" (the wake at the
 // wing, and the circulation there), "loads", and "plugin": MuJoCo's calls of it, with those three that
-// happen in them. The module and the plugin have clocks of their own. Nothing is counted before the first reset: reading
-// the clock takes a part of a short step.
+// happen in them. The module and the plugin have clocks of their own. Nothing is counted before the
+// first reset: reading the clock takes a part of a short step.
 std::map<std::string, double> clocks();
 void reset_clocks();
 

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "vec3.hpp"
+
 namespace flaprig {
 
 // A sheet of vortex rings on (rings + 1) x (strips + 1) vertices. A ring's sides are shared by
@@ -14,6 +16,9 @@ struct Sheet {
   std::vector<T> x, y, z;      // vertices, row by row
   std::vector<T> circulation;  // rings, row by row
   void resize(int rings_, int strips_);
+  void put(int vertex, Vec3 p) {
+    x[vertex] = static_cast<T>(p.x), y[vertex] = static_cast<T>(p.y), z[vertex] = static_cast<T>(p.z);
+  }
 };
 
 template <class T>

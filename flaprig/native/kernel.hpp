@@ -6,6 +6,19 @@
 
 namespace flaprig {
 
+// squared distance below which a point lies on a vertex; floor of 1 + cos on an edge, a few roundings;
+// what keeps 0/0 away
+template <class T>
+struct Limits;
+template <>
+struct Limits<float> {
+  static constexpr float kDelta2 = 1e-14f, kFloor = 4.8e-7f, kTiny = 1e-30f;
+};
+template <>
+struct Limits<double> {
+  static constexpr double kDelta2 = 1e-40, kFloor = 8.9e-16, kTiny = 1e-200;
+};
+
 template <class T>
 struct Edge {
   T soft;      // (core length)^2

@@ -10,7 +10,6 @@ namespace {
 
 struct F {
   static constexpr int kSize = 16;
-  static constexpr float kDelta2 = 1e-14f, kFloor = 4.8e-7f, kTiny = 1e-30f;
   __m512 v;
   static F load(const float* p) { return {_mm512_loadu_ps(p)}; }
   static F set(float s) { return {_mm512_set1_ps(s)}; }
@@ -35,7 +34,6 @@ inline F rsqrt(F a) {
 
 struct D {
   static constexpr int kSize = 8;
-  static constexpr double kDelta2 = 1e-40, kFloor = 8.9e-16, kTiny = 1e-200;
   __m512d v;
   static D load(const double* p) { return {_mm512_loadu_pd(p)}; }
   static D set(double s) { return {_mm512_set1_pd(s)}; }

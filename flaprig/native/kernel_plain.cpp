@@ -8,18 +8,7 @@ namespace flaprig {
 namespace {
 
 template <class T>
-struct Limits;
-template <>
-struct Limits<float> {
-  static constexpr float kDelta2 = 1e-14f, kFloor = 4.8e-7f, kTiny = 1e-30f;
-};
-template <>
-struct Limits<double> {
-  static constexpr double kDelta2 = 1e-40, kFloor = 8.9e-16, kTiny = 1e-200;
-};
-
-template <class T>
-struct Lanes : Limits<T> {
+struct Lanes {
   static constexpr int kSize = 16 / sizeof(T);
   typedef T Vector __attribute__((vector_size(16)));
   Vector v;

@@ -1,7 +1,7 @@
 // The innermost loop over lanes of type V; included once by the file of each instruction set, inside
 // of its anonymous namespace.
 //
-// V: kSize, kDelta2, kFloor, kTiny, load, store, set, +, -, *, fma(a, b, c) = a b + c,
+// V: kSize, load, store, set, +, -, *, fma(a, b, c) = a b + c,
 // fms = a b - c, max, rcp = 1 / a, rsqrt = 1 / sqrt(a).
 
 // from a vertex to the points, shared by the vertex's four edges
@@ -13,7 +13,7 @@ struct Arm {
 template <class V, class T>
 inline __attribute__((always_inline)) Arm<V> reach(T vx, T vy, T vz, V x, V y, V z) {
   Arm<V> arm = {x - V::set(vx), y - V::set(vy), z - V::set(vz), V::set(0)};
-  arm.inverse = rsqrt(fma(arm.x, arm.x, fma(arm.y, arm.y, fma(arm.z, arm.z, V::set(V::kDelta2)))));
+  arm.inverse = rsqrt(fma(arm.x, arm.x, fma(arm.y, arm.y, fma(arm.z, arm.z, V::set(Limits<T>::kDelta2)))));
   return arm;
 }
 
@@ -29,9 +29,9 @@ inline __attribute__((always_inline)) void add_edge(const Edge<T>& e, const Arm<
   const V n2 = fma(nx, nx, fma(ny, ny, nz * nz));
   const V both = a.inverse * b.inverse;
   const V dot = fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
-  const V facing = max(fma(dot, both, V::set(1)), V::set(V::kFloor));
+  const V facing = max(fma(dot, both, V::set(1)), V::set(Limits<T>::kFloor));
   const V above = (a.inverse + b.inverse) * both * (n2 * V::set(e.strength));
-  const V below = fma(n2 + V::set(e.soft), facing, V::set(V::kTiny));
+  const V below = fma(n2 + V::set(e.soft), facing, V::set(Limits<T>::kTiny));
   const V scale = above * rcp(below);
   u = fma(scale, nx, u);
   v = fma(scale, ny, v);

@@ -38,9 +38,7 @@ void RollUp<T>::place(const Motion& pose) {
     const int i = v / columns_, j = v % columns_;
     const Vec3 p = i < bound_ ? pose.rotation * air_.lattice().vertex(i, j)
                               : wake_.vertex(i - bound_, j) - pose.position_w;
-    whole_.x[v] = static_cast<T>(scale * p.x);
-    whole_.y[v] = static_cast<T>(scale * p.y);
-    whole_.z[v] = static_cast<T>(scale * p.z);
+    whole_.put(v, scale * p);
   }
   const double* g = wake_.circulation();
   const auto first = std::copy_n(g, (bound_ - 1) * n, whole_.circulation.begin());

@@ -10,7 +10,7 @@ namespace flaprig {
 
 // A young vertex row moves with the velocity that all vortices induce now. An old one sums two: that
 // of the wing and what it has just shed, found now, and that of all else, which changes slowly: it is
-// found every second tick, every fourth at twice the age and so on, and extrapolated in between.
+// found every second tick, from twice the age on every fourth, and extrapolated in between.
 // T: the precision of its velocities.
 template <class T>
 class RollUp {

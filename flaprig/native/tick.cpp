@@ -20,13 +20,6 @@ Motion read_pose(const double* pose) {
   return m;
 }
 
-template <class T>
-void put(Sheet<T>& sheet, int index, Vec3 p, double scale) {
-  sheet.x[index] = static_cast<T>(scale * p.x);
-  sheet.y[index] = static_cast<T>(scale * p.y);
-  sheet.z[index] = static_cast<T>(scale * p.z);
-}
-
 }  // namespace
 
 Tick::Tick(const Uvlm& air, Wake wake, const Motion& motion)
@@ -108,7 +101,7 @@ void Tick::wake_stream() {
   Sheet<double> sheet;
   sheet.resize(rows, n);
   for (int v = 0; v < (rows + 1) * (n + 1); ++v) {
-    put(sheet, v, wake_.vertex(v / (n + 1), v % (n + 1)) - motion_.position_w, scale);
+    sheet.put(v, scale * (wake_.vertex(v / (n + 1), v % (n + 1)) - motion_.position_w));
   }
   air_.free_strengths(wake_, sheet.circulation.data());
   Points<double> points(m), velocity(m);

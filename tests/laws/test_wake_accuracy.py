@@ -7,6 +7,7 @@ import pytest
 
 from flaprig.aero.batch import simulate_batch
 from flaprig.aero.models import UVLM
+from flaprig.benchmark.dial import drawn
 from flaprig.strokes import SunTangStroke
 from flaprig.wing import RIG_WING
 
@@ -15,16 +16,6 @@ FAST_FLIP = SunTangStroke(0.2, np.pi / 3, np.pi / 4, 0.5, 0.16)
 # standard deviations among neighbours within which means of a chaotic wake count as the same; the
 # largest difference here is 1.0 with AVX vectors and 1.5 with 128 bits
 SPREADS = 2.0
-
-
-def kinematics(count):
-    """Strokes from all over what the rig may do."""
-    rng = np.random.default_rng(1)
-    low, high = np.radians([40, 30]), np.radians([75, 60])
-    return [
-        SunTangStroke(0.2, *rng.uniform(low, high), *rng.uniform(0.16, 0.5, 2))
-        for _ in range(count)
-    ]
 
 
 def means(strokes, cycles, **settings):
@@ -36,7 +27,7 @@ def means(strokes, cycles, **settings):
 
 
 def test_first_cycle_is_within_three_thousandths():
-    strokes = [SINUSOID, FAST_FLIP, *kinematics(14)]
+    strokes = [SINUSOID, FAST_FLIP, *drawn(14)]
     change = means(strokes, 1) / means(strokes, 1, wake_detail=0) - 1
     assert np.abs(change).max() < 3e-3
     assert np.sqrt(np.mean(change**2)) < 8e-4
