@@ -12,7 +12,8 @@ import tyro
 
 from flaprig import UVLM, QuasiSteady, Rig, SunTangStroke, Twin
 from flaprig.feedforward import needed_torques
-from flaprig.limits import SINUSOID, XM430_RIG, filtered, rig_limits
+from flaprig.limits import SINUSOID, filtered, rig_limits
+from flaprig.logs import XM430_RIG
 
 
 def main(

@@ -18,9 +18,9 @@ ROOT = Path(__file__).resolve().parents[1]
 FLOORS = (
     ("_checks", "_paths", "files", "planform", "wing", "fluid", "strokes", "theory"),
     ("native", "aero"),
-    ("limits",),
+    ("limits", "logs"),
     (
-        *("motors", "motor_histories", "motor_record", "plate", "rig", "energy"),
+        *("motors", "motor_histories", "motor_record", "rig", "energy"),
         *("servo_link", "set_points", "feedforward"),
         *("twin_log", "twin_run", "twin"),
         *("verdict", "motion_verdicts", "servo_verdicts", "feasibility", "catalogue"),

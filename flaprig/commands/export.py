@@ -49,7 +49,8 @@ def run(args: Export, folder: Folder) -> None:
         OSError: a file cannot be read or written.
     """
     from flaprig.feedforward import needed_torques
-    from flaprig.limits import XM430_RIG, filtered
+    from flaprig.limits import filtered
+    from flaprig.logs import XM430_RIG
     from flaprig.set_points import own_limits
 
     wing, stroke, fluid = args.wing.build(), args.stroke.build(), args.fluid.build()

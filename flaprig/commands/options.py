@@ -86,7 +86,7 @@ def read_stroke(path: Path, log_frequency: float | None = None) -> Stroke:
         OSError: the file cannot be read.
     """
     # scipy comes with it: not for --help
-    from flaprig.limits import read_log
+    from flaprig.logs import read_log
 
     if not path.read_bytes()[:1000].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
         return read_log(path, log_frequency).stroke

@@ -1,4 +1,4 @@
-"""What the servos can follow: limits, the nearest stroke within them, set points, files of a rig.
+"""What the servos can follow: limits, the nearest stroke within them, set points.
 
 The set points come from Ruckig, which is imported when they are asked for.
 """
@@ -7,9 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from flaprig.limits.accelerations import PAPER_KINEMATICS, SINUSOID, Accelerations
-from flaprig.limits.counts import XM430_RIG, JointCounts, PositionCounts
 from flaprig.limits.limits import Bound, JointLimits, Limits
-from flaprig.limits.log_file import RigLog, read_log
 from flaprig.limits.peaks import JointPeaks, Violation, peaks, violations
 from flaprig.limits.projection import JointProjection, Projection, project
 from flaprig.limits.reference import Mode, State
@@ -22,26 +20,21 @@ if TYPE_CHECKING:
 __all__ = [
     "Accelerations",
     "Bound",
-    "JointCounts",
     "JointLimits",
     "JointPeaks",
     "JointProjection",
     "Limits",
     "Mode",
     "PAPER_KINEMATICS",
-    "PositionCounts",
     "Projection",
-    "RigLog",
     "RuckigFilter",
     "SINUSOID",
     "State",
     "Trajectory",
     "Violation",
-    "XM430_RIG",
     "filtered",
     "peaks",
     "project",
-    "read_log",
     "rig_limits",
     "servo_limits",
     "violations",

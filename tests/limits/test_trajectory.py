@@ -1,14 +1,8 @@
 import numpy as np
 import pytest
 
-from flaprig.limits import (
-    SINUSOID,
-    XM430_RIG,
-    Bound,
-    JointCounts,
-    PositionCounts,
-    filtered,
-)
+from flaprig.limits import SINUSOID, Bound, filtered
+from flaprig.logs import XM430_RIG, JointCounts, PositionCounts
 from flaprig.strokes import SampledStroke
 
 A = np.pi / 3

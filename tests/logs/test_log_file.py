@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from flaprig.limits import read_log
+from flaprig.logs import read_log
 from flaprig.strokes import FourierStroke
 
 STROKE = FourierStroke(0.5, [-1.0, 0.1], [0.0, 0.05], [0.1, 0.0], [0.7, 0.05])

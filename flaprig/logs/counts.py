@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from flaprig import _checks as check
 from flaprig.files import written_whole
-from flaprig.limits.limits import JOINTS
 from flaprig.strokes.stroke import Motion
 
 # ROBOTIS e-Manual, XM430-W350: 4096 pulses a turn; position control takes 0 to 4095, and 2048
 # is the middle, marked on the horn
 XM430_COUNTS, XM430_ZERO = 4096, 2048
+# order of the joints in tables
+JOINTS = ("sweep", "pitch")
 # widest register accepted
 MOST_COUNT = 2**31 - 1
 

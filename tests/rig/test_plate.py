@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from flaprig import plate
+from flaprig.rig import plate
 from flaprig.wing import RIG_WING, Wing
 
 WINGS = {
