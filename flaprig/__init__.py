@@ -16,6 +16,7 @@ from flaprig.wing import RIG_WING, Wing
 
 if TYPE_CHECKING:
     from flaprig.feasibility import FeasibilityReport, Tolerances, check_feasibility
+    from flaprig.logs import RigLog, read_log
     from flaprig.rig import Rig
     from flaprig.twin import Twin, TwinRun
 
@@ -34,6 +35,7 @@ __all__ = [
     "QuasiSteady",
     "Result",
     "Rig",
+    "RigLog",
     "SampledStroke",
     "SuctionLaw",
     "SunTangStroke",
@@ -42,18 +44,21 @@ __all__ = [
     "TwinRun",
     "Wing",
     "check_feasibility",
+    "read_log",
     "simulate",
     "simulate_batch",
 ]
 
-# what needs MuJoCo, by the room it is in: imported when it is asked for
+# what needs MuJoCo or scipy, by the room it is in: imported when it is asked for
 _LATE = {
     "FeasibilityReport": "feasibility",
     "Rig": "rig",
+    "RigLog": "logs",
     "Tolerances": "feasibility",
     "Twin": "twin",
     "TwinRun": "twin",
     "check_feasibility": "feasibility",
+    "read_log": "logs",
 }
 
 

@@ -72,8 +72,8 @@ class JointCounts:
             raise check.fail("JointCounts.counts", "angle", allowed, f"{worst:.0f} counts")
         return found.astype(np.int64)
 
-    def angles(self, counts: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Angles in [rad] of counts. Shape as counts."""
+    def angles(self, counts: NDArray[np.int64] | NDArray[np.float64]) -> NDArray[np.float64]:
+        """Angles in [rad] of counts, whole or averaged. Shape as counts."""
         turned = self.direction * (np.asarray(counts, dtype=np.float64) - self.zero)
         return np.asarray(turned * (2.0 * np.pi / self.per_turn))
 
