@@ -1,15 +1,17 @@
 """Can the rig do this stroke, by what margin, and what is the nearest thing that it can do?
 
 The stroke runs in the digital twin, within the limits and through Ruckig; what it needs of every
-limit is set against what the limit allows. The cost of limits and tracking is the difference from
-the same stroke made exactly, in the same model of the fluid.
+limit is set against what the limit allows. A stroke beyond the limits is judged by what it would
+need if it were made exactly (inverse dynamics); what the nearest stroke needs is told beside that.
+The cost of limits and tracking is the difference from the same stroke made exactly, in the same
+model of the fluid.
 """
 
 from __future__ import annotations
 
 import math
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +20,7 @@ from flaprig import _checks as check
 from flaprig.aero.air import Progress
 from flaprig.aero.result import Result
 from flaprig.aero.simulate import reference_force, simulate
+from flaprig.as_asked import asked_torques
 from flaprig.files import written_whole
 from flaprig.limits import Limits, Projection, project
 from flaprig.limits.peaks import check_limits
@@ -27,7 +30,7 @@ from flaprig.servo_verdicts import Work, servo_verdicts
 from flaprig.set_points import own_limits
 from flaprig.strokes.stroke import Stroke
 from flaprig.twin import TIME_STEP, Twin, TwinRun
-from flaprig.verdict import Tolerances, Verdict, narrowest
+from flaprig.verdict import Tolerances, Verdict, beside, narrowest
 
 __all__ = ["FeasibilityReport", "Tolerances", "Verdict", "check_feasibility"]
 
@@ -36,7 +39,7 @@ _TWIN_SHARE = 0.7
 # smallest lift over drag that changes are shares of: a stroke without lift has no percent of it
 _LEAST_LIFT = 0.1
 # first line of a saved report
-HEADER = "joint,quantity,unit,value,bound,margin,holds"
+HEADER = "joint,quantity,unit,value,bound,margin,holds,nearest"
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +54,8 @@ class FeasibilityReport:
         run: of the twin.
         prescribed: loads of the stroke asked for when it is made exactly.
         verdicts: on every limit; those with no bound only tell a number.
+        asked_work: what the servos would do on the stroke asked for, by joint; empty where the
+            twin makes it.
     """
 
     rig: Rig
@@ -60,6 +65,18 @@ class FeasibilityReport:
     run: TwinRun
     prescribed: Result
     verdicts: tuple[Verdict, ...]
+    asked_work: dict[str, Work] = field(default_factory=dict)
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """What was changed of the stroke, and what is doubtful; sentences."""
+        found = [*self.run.notices, *self.prescribed.notices]
+        if self.asked_work:
+            found.append(
+                "the rig cannot make this stroke: the values judged are what it would need as "
+                "asked (inverse dynamics); the nearest stroke's stand beside them"
+            )
+        return tuple(dict.fromkeys(found))
 
     @property
     def feasible(self) -> bool:
@@ -109,6 +126,8 @@ class FeasibilityReport:
             "prescribed_cl": self.prescribed.cl,
             "prescribed_lift_to_drag": self.prescribed.lift_to_drag,
             "nearest_stroke_rms_rad": self.projection.distance_rms,
+            "flown_sweep_amplitude_rad": self.run.flown_amplitude(Axis.SWEEP),
+            "flown_pitch_amplitude_rad": self.run.flown_amplitude(Axis.PITCH),
             "verdicts": {verdict.key: verdict.summary() for verdict in self.verdicts},
         }
 
@@ -168,14 +187,23 @@ def check_feasibility(
         rig.wing, stroke, rig.model, rig.fluid, cycles, progress=_part(progress, _TWIN_SHARE)
     )
     verdicts = motion_verdicts(stroke, projection, limits, tolerances)
+    # a stroke that the twin does not make is judged by what it would need
+    made = projection.distance_max <= tolerances.resolution
+    asked = {} if made else _asked_work(rig, stroke, prescribed, run)
     for axis in Axis:
         motor, allowed = getattr(rig.motors, axis), getattr(limits, axis)
         work = servo_work(run, stroke, axis)
-        verdicts += servo_verdicts(axis.value, motor, allowed, work, tolerances)
+        found = servo_verdicts(axis.value, motor, allowed, work, tolerances)
+        if asked:
+            as_asked = servo_verdicts(axis.value, motor, allowed, asked[axis.value], tolerances)
+            found = beside(as_asked, found)
+        verdicts += found
     verdicts += _cost(run.result, prescribed, tolerances)
     # joint by joint, the whole rig last
     verdicts.sort(key=lambda verdict: [*Axis, ""].index(verdict.joint))
-    return FeasibilityReport(rig, stroke, limits, projection, run, prescribed, tuple(verdicts))
+    return FeasibilityReport(
+        rig, stroke, limits, projection, run, prescribed, tuple(verdicts), asked
+    )
 
 
 def servo_work(run: TwinRun, stroke: Stroke, axis: Axis) -> Work:
@@ -192,22 +220,38 @@ def servo_work(run: TwinRun, stroke: Stroke, axis: Axis) -> Work:
     )
 
 
+def _asked_work(rig: Rig, stroke: Stroke, prescribed: Result, run: TwinRun) -> dict[str, Work]:
+    """What both servos would do on the stroke itself; the errors are the twin's own."""
+    torque = asked_torques(rig, stroke, prescribed)
+    motion = stroke.motion(prescribed.averaged(prescribed.time))
+    return {
+        axis.value: Work(
+            torque=torque[:, i],
+            demand=torque[:, i],
+            speed=getattr(motion, f"{axis}_rate"),
+            error=servo_work(run, stroke, axis).error,
+        )
+        for i, axis in enumerate(Axis)
+    }
+
+
 def _run(
     twin: Twin, stroke: Stroke, projection: Projection, cycles: int, progress: Progress | None
 ) -> TwinRun:
-    """The twin on the nearest stroke; its coefficients divide as for the stroke asked for."""
+    """The twin on the stroke, or on the nearest one within its limits."""
     try:
-        run = twin.run(projection.stroke, cycles, progress)
+        run = twin.run(stroke, cycles, progress)
         started = math.ceil(run.joined_at * stroke.frequency)
         if started >= run.result.averaged_cycles[0]:
             # means are over the last three at most
-            run = twin.run(projection.stroke, started + 3, progress)
+            run = twin.run(stroke, started + 3, progress)
+        return run
     except RuntimeError:
         # no start from rest leads onto a stroke without room: begin at full rate
         run = replace(twin, limits=None).run(projection.stroke, cycles, progress)
     force = reference_force(twin.rig.wing, stroke, twin.rig.fluid)
-    result = replace(run.result, reference_force=force)
-    return replace(run, result=result, projection=projection)
+    result = replace(run.result, reference_force=force, notices=()).doubted(stroke)
+    return replace(run, result=result, projection=projection, asked=stroke)
 
 
 def _cost(reached: Result, exact: Result, tolerances: Tolerances) -> list[Verdict]:
@@ -235,5 +279,7 @@ def _row(verdict: Verdict) -> str:
         "" if value is None else f"{value:.10g}"
         for value in (verdict.value, verdict.bound, verdict.margin)
     )
-    words = (verdict.joint, verdict.name, verdict.unit, *numbers, str(verdict.holds).lower())
+    nearest = "" if verdict.nearest is None else f"{verdict.nearest:.10g}"
+    holds = str(verdict.holds).lower()
+    words = (verdict.joint, verdict.name, verdict.unit, *numbers, holds, nearest)
     return ",".join(words)

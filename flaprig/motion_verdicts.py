@@ -2,6 +2,7 @@
 
 Where a motion within the limits is nearer than the servo can tell, it is judged in the stroke's
 place: piecewise strokes have accelerations that jump, no servo follows a jump, and none needs to.
+Elsewhere the stroke asked for is judged, and the nearest one is told beside it.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from flaprig.limits.limits import JOINTS, Bound, JointLimits, Limits
 from flaprig.limits.peaks import JointPeaks, peaks
 from flaprig.limits.projection import Projection
 from flaprig.strokes.stroke import Stroke
-from flaprig.verdict import Tolerances, Verdict
+from flaprig.verdict import Tolerances, Verdict, beside
 
 
 def motion_verdicts(
@@ -27,11 +28,15 @@ def motion_verdicts(
     distances = {joint: getattr(projection, joint).distance_max for joint in JOINTS}
     near = {joint: distance <= tolerances.resolution for joint, distance in distances.items()}
     wanted = {} if all(near.values()) else peaks(stroke)
-    nearest = peaks(projection.stroke) if any(near.values()) else {}
+    nearest = peaks(projection.stroke)
     found = []
     for joint, distance in distances.items():
-        need = nearest[joint] if near[joint] else wanted[joint]
-        found += _joint_verdicts(joint, need, getattr(limits, joint))
+        allowed = getattr(limits, joint)
+        verdicts = _joint_verdicts(joint, nearest[joint], allowed)
+        if not near[joint]:
+            asked = _joint_verdicts(joint, wanted[joint], allowed)
+            verdicts = beside(asked, verdicts)
+        found += verdicts
         args = ("nearest_motion", distance, tolerances.resolution, "rad")
         found.append(Verdict(joint, *args))
     return found

@@ -24,7 +24,7 @@ from flaprig.servo_link import PERFECT, ServoLink
 from flaprig.set_points import Own, SetPoints, check_stops, own_limits, set_points
 from flaprig.strokes.stroke import Motion, Stroke
 from flaprig.twin_log import drive
-from flaprig.twin_run import TwinRun, gather
+from flaprig.twin_run import TOLD, TwinRun, gather
 
 __all__ = ["Own", "ServoLink", "Twin", "TwinRun"]
 
@@ -108,7 +108,28 @@ class Twin:
         points, control = self.commands(model, stroke, cycles)
         log = drive(model, at_rest(model, points.motion), control, progress)
         rig = self.rig.running(stroke)
-        return gather(rig, model, stroke, points, control, log, cycles)
+        told = self.rounded(model.opt.timestep)
+        return gather(rig, model, stroke, points, control, log, cycles, told)
+
+    def rounded(self, time_step: float) -> tuple[str, ...]:
+        """Sentences on times that were rounded to whole steps, or steps to the cycle.
+
+        Args:
+            time_step: of the run in [s].
+        """
+        found = []
+        if abs(time_step / self.time_step - 1.0) > TOLD:
+            found.append(
+                f"the time step is {time_step:.6g} s instead of {self.time_step:.6g} s: it divides "
+                "the cycle, and the wake has a row a step at most"
+            )
+        for name, least in (("update_interval", 1), ("delay", 0)):
+            asked = getattr(self.link, name)
+            made = max(least, round(asked / time_step)) * time_step
+            if asked > 0.0 and abs(made - asked) > TOLD * asked:
+                words = name.replace("_", " ")
+                found.append(f"the link's {words} is {made:.4g} s instead of {asked:.4g} s")
+        return tuple(found)
 
     def commands(
         self, model: mujoco.MjModel, stroke: Stroke, cycles: int

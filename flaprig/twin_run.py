@@ -17,6 +17,7 @@ from flaprig.aero.simulate import reference_force
 from flaprig.energy import EnergyBalance, solid_energy
 from flaprig.files import write_table
 from flaprig.limits import JointProjection, Projection
+from flaprig.limits.projection import in_words
 from flaprig.motor_histories import MotorHistories
 from flaprig.motor_record import motor_histories
 from flaprig.motors import Motors
@@ -27,9 +28,13 @@ from flaprig.twin_log import StepLog
 
 Array = NDArray[np.float64]
 
+# difference of amplitudes that is told at least [rad]: a count of the encoders
+LEAST_TOLD = 2.0 * np.pi / 4096.0
 # a commanded first harmonic below this [rad] has no lag
 LEAST_SWING = 1e-9
 
+# shares by which a number may differ from what was asked for without a word
+TOLD = 0.01
 # parts of a six-axis wrench, with their units
 _PARTS = ("force_x_N", "force_y_N", "force_z_N", "torque_x_Nm", "torque_y_Nm", "torque_z_Nm")
 
@@ -44,24 +49,63 @@ class TwinRun:
         motors: commands, torques, currents and temperatures of the servos.
         servos: the two servos themselves.
         commanded: motion that the servos were to make, within the limits. Arrays of shape (n + 1,).
+        asked: the stroke that was asked for.
         projection: what the limits changed of the stroke asked for; None: run without limits.
         joined_at: when the start from rest had caught up with the stroke in [s].
         energy: balance of every cycle.
         fluid_wrench: of the fluid on the wing, wing frame, about its origin [N, N m]. Shape (n, 6).
         load_cell: of the wing on its mount, in the cell's frame [N, N m]. Shape (n, 6).
         time_step: of MuJoCo in [s]: the one asked for, made to divide the cycle.
+        told: sentences on what else was changed: time step, delay, update interval.
     """
 
     result: Result
     motors: MotorHistories
     servos: Motors
     commanded: Motion
+    asked: Stroke
     projection: Projection | None
     joined_at: float
     energy: EnergyBalance
     fluid_wrench: Array
     load_cell: Array
     time_step: float
+    told: tuple[str, ...] = ()
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """What was changed of the request, and what is doubtful about the answer; sentences."""
+        changed = self.projection.notices if self.projection else ()
+        return (*changed, *self.told, *self._shortfalls(), *self.result.notices)
+
+    def flown_amplitude(self, axis: Axis | str) -> float:
+        """Half of the peak-to-peak angle reached in the averaged cycles in [rad]."""
+        return 0.5 * float(np.ptp(self.result.averaged(getattr(self.motors, Axis(axis).value))))
+
+    @property
+    def flown_reference_force(self) -> float:
+        """0.5 rho U^2 S in [N] with U the mean speed at R2 of the sweep that was really made."""
+        share = self.flown_amplitude(Axis.SWEEP) / self.asked.sweep_amplitude
+        return float(self.result.reference_force * share**2)
+
+    def _shortfalls(self) -> list[str]:
+        """Sentences on servos that did not do what they were told."""
+        found = []
+        for axis in Axis:
+            told = self.result.averaged(getattr(self.motors, f"{axis}_command"))
+            wanted, reached = 0.5 * float(np.ptp(told)), self.flown_amplitude(axis)
+            if abs(reached - wanted) > max(TOLD * wanted, LEAST_TOLD):
+                found.append(
+                    f"{axis} reached an amplitude of {in_words(reached)} where "
+                    f"{in_words(wanted)} was commanded"
+                )
+            part = float(self.result.averaged(self.saturated(axis).astype(np.float64)).mean())
+            if part > 0.0:
+                found.append(
+                    f"the {axis} servo was at the limit of its torque or supply in "
+                    f"{100.0 * part:.3g} % of the time"
+                )
+        return found
 
     def tracking_error(self, axis: Axis | str) -> Array:
         """Angle reached minus angle commanded, in [rad], over the averaged cycles. Shape (m,)."""
@@ -117,7 +161,14 @@ class TwinRun:
             "time_step_s": self.time_step,
             "joined_at_s": self.joined_at,
         }
-        return {**self.result.summary(), **servos, **balance}
+        scale = self.result.reference_force / max(self.flown_reference_force, 1e-300)
+        flown: dict[str, float | list[int] | list[float]] = {
+            **{f"flown_{axis}_amplitude_rad": self.flown_amplitude(axis) for axis in Axis},
+            # by the speed that was really made
+            "flown_cl": self.result.cl * scale,
+            "flown_cd": self.result.cd * scale,
+        }
+        return {**self.result.summary(), **flown, **servos, **balance}
 
     def _servo_summary(self, axis: Axis) -> dict[str, float]:
         error = self.tracking_error(axis)
@@ -175,6 +226,7 @@ def gather(
     control: Array,
     log: StepLog,
     cycles: int,
+    told: tuple[str, ...] = (),
 ) -> TwinRun:
     """A run's raw log as histories, coefficients and balance."""
     sensors = {name: log.sensors[:, part] for name, part in readings(model).items()}
@@ -182,16 +234,18 @@ def gather(
     histories = _histories(model, points.motion, log, sensors[Sensor.AERO])
     averaged = settled_cycles(cycles, points.joined_at * stroke.frequency)
     return TwinRun(
-        result=Result(histories, force, len(control) // cycles, averaged),
+        result=Result(histories, force, len(control) // cycles, averaged).doubted(stroke),
         motors=motor_histories(rig, model, points.motion, control, log),
         servos=rig.motors,
         commanded=points.motion,
+        asked=stroke,
         projection=points.projection,
         joined_at=points.joined_at,
         energy=_balance(model, log, histories.power, cycles),
         fluid_wrench=sensors[Sensor.AERO][:, :6],
         load_cell=sensors[Sensor.LOAD_CELL],
         time_step=model.opt.timestep,
+        told=told,
     )
 
 

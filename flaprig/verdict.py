@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from flaprig import _checks as check
@@ -36,6 +36,8 @@ class Verdict:
         bound: what is allowed, of the same sign; None: the quantity is told and not judged.
         unit: SI, degC for temperatures, empty for shares.
         zero: value of which the margin is whole: the ambient temperature, mid-range of an angle.
+        nearest: the same of the nearest stroke that the rig can make, where the value is that of
+            a stroke that it cannot; it is told and never judged.
     """
 
     joint: str
@@ -44,6 +46,7 @@ class Verdict:
     bound: float | None
     unit: str
     zero: float = 0.0
+    nearest: float | None = None
 
     @property
     def margin(self) -> float | None:
@@ -77,6 +80,7 @@ class Verdict:
             "bound": self.bound,
             "margin": self.margin,
             "holds": self.holds,
+            **({} if self.nearest is None else {"nearest": self.nearest}),
         }
 
 
@@ -88,6 +92,11 @@ def narrowest(verdicts: Iterable[Verdict]) -> Verdict:
     """
     margins = [(v.margin, v) for v in verdicts if v.margin is not None]
     return min(margins, key=lambda pair: -math.inf if math.isnan(pair[0]) else pair[0])[1]
+
+
+def beside(asked: Iterable[Verdict], nearest: Iterable[Verdict]) -> list[Verdict]:
+    """Verdicts on the stroke asked for, with the values of the nearest one beside them."""
+    return [replace(a, nearest=n.value) for a, n in zip(asked, nearest, strict=True)]
 
 
 @dataclass(frozen=True)

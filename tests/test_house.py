@@ -22,7 +22,7 @@ FLOORS = (
     (
         *("motors", "motor_histories", "motor_record", "rig", "energy"),
         *("servo_link", "set_points", "feedforward"),
-        *("twin_log", "twin_run", "twin"),
+        *("twin_log", "twin_run", "twin", "as_asked"),
         *("verdict", "motion_verdicts", "servo_verdicts", "feasibility", "catalogue"),
         *("scaling", "servo_choice"),
     ),

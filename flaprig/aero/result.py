@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from flaprig.aero.histories import Histories
+from flaprig.aero.notices import doubts_of_loads
 from flaprig.files import write_table
+from flaprig.strokes.stroke import Stroke
 
 Array = NDArray[np.float64]
 
@@ -27,12 +29,14 @@ class Result:
         reference_force: 0.5 rho U^2 S in [N].
         steps_per_cycle: instants in one cycle.
         averaged_cycles: first and last cycle in the means, counted from 1.
+        notices: what was changed or is doubtful; sentences.
     """
 
     histories: Histories
     reference_force: float
     steps_per_cycle: int
     averaged_cycles: tuple[int, int]
+    notices: tuple[str, ...] = ()
 
     @property
     def time(self) -> Array:
@@ -63,6 +67,10 @@ class Result:
     def power(self) -> Array:
         """Given to the fluid [W], shape (n,)."""
         return self.histories.power
+
+    def doubted(self, stroke: Stroke) -> Result:
+        """The same result with the notices on its stroke and its means."""
+        return replace(self, notices=(*self.notices, *doubts_of_loads(stroke, self.cl, self.cd)))
 
     @property
     def cl(self) -> float:

@@ -95,7 +95,8 @@ def result_of(
     _require_finite(loads, motion.time)
     histories = stroke_histories(motion, rigid, loads)
     force = reference_force(wing, stroke, fluid)
-    return Result(histories, force, motion.time.size // cycles, averaged_cycles(cycles))
+    found = Result(histories, force, motion.time.size // cycles, averaged_cycles(cycles))
+    return found.doubted(stroke)
 
 
 def _require_finite(loads: WingLoads, time: Array) -> None:

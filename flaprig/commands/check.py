@@ -16,9 +16,9 @@ from flaprig.commands.progress import progress
 from flaprig.commands.run_output import Case, timed
 from flaprig.report.folder import Folder
 from flaprig.report.numbers import as_json
+from flaprig.report.table import print_notices
 from flaprig.report.torque_speed import draw_torque_speed
 from flaprig.report.verdicts import print_scale, print_verdicts
-from flaprig.strokes import Stroke
 
 if TYPE_CHECKING:
     from flaprig.feasibility import FeasibilityReport
@@ -40,8 +40,6 @@ class Check:
     and the change of lift. Exit status: 0 feasible, 1 infeasible, 2 bad input, 3 the run failed.
 
     Attributes:
-        log_frequency: strokes per second in a --stroke FILE that is a rig's log of many cycles;
-            else it holds one [Hz].
         limits: the servos' own, or with the accelerations that the paper's kinematics reach.
         no_feedforward: do not tell the servos the torque that the motion needs.
         rms_tracking: allowed root mean square of angle reached minus angle asked for [degrees].
@@ -55,9 +53,6 @@ class Check:
     """
 
     stroke: options.StrokeOptions = field(default_factory=options.StrokeOptions)
-    log_frequency: Annotated[
-        float | None, arg(metavar="FLOAT", help_behavior_hint="(optional)")
-    ] = None
     wing: options.WingOptions = field(default_factory=options.WingOptions)
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
     model: options.ModelOptions = field(default_factory=options.ModelOptions)
@@ -81,9 +76,9 @@ def run(args: Check, folder: Folder) -> int:
         ImportError: the plugin library is missing or does not fit MuJoCo.
         OSError: a file cannot be read or written.
     """
-    case = Case(
+    case = Case.of(
+        args.stroke.read(),
         args.wing.build(),
-        read_stroke(args.stroke, args.log_frequency),
         args.model.build(),
         args.fluid.build(),
         args.cycles,
@@ -93,7 +88,8 @@ def run(args: Check, folder: Folder) -> int:
     with timed() as spent:
         report = _judged(args, case, settings)
         scaled = _scaled(args, case, settings) if args.scale else None
-    summary = {"command": "check", **case.summary(), **report.summary()}
+    notices = case.all_notices(*report.notices)
+    summary = {"command": "check", **case.summary(), **report.summary(), "notices": notices}
     if scaled:
         summary |= {"scale": scaled[0].summary() | scaled[1].summary()}
     summary |= spent
@@ -101,23 +97,8 @@ def run(args: Check, folder: Folder) -> int:
     if args.json:
         print(as_json(summary))
     else:
-        _tell(case, report, scaled, folder)
+        _tell(case, report, scaled, folder, notices)
     return FEASIBLE if report.feasible else INFEASIBLE
-
-
-def read_stroke(wanted: options.StrokeOptions, log_frequency: float | None) -> Stroke:
-    """The stroke of the options.
-
-    Raises:
-        ValueError: a bad option, or one sentence on what is wrong in the file.
-        OSError: the file cannot be read.
-    """
-    if log_frequency is None:
-        return wanted.build()
-    if wanted.file is None or wanted != options.StrokeOptions(file=wanted.file):
-        allowed = "left out unless --stroke FILE, and it alone, says the stroke"
-        raise check.fail("options", "--log-frequency", allowed, log_frequency)
-    return options.read_stroke(wanted.file, log_frequency)
 
 
 def _settings(args: Check) -> dict[str, Any]:
@@ -188,8 +169,14 @@ def _write(folder: Folder, case: Case, report: FeasibilityReport, summary: dict[
     folder.write_text("summary.json", as_json(summary) + "\n")
     if report.projection.changed:
         folder.write("nearest.csv", report.projection.stroke.save)
-    title = f"Torque and speed of the servos, {case.title}"
+    title = f"Torque and speed of the servos, {_title(case, report)}"
     folder.write("torque_speed.png", lambda draft: draw_torque_speed(draft, report, title))
+
+
+def _title(case: Case, report: FeasibilityReport) -> str:
+    """What was flown, and what was asked for."""
+    flown = report.run.flown_amplitude
+    return case.title_of(flown("sweep"), flown("pitch"))
 
 
 def _tell(
@@ -197,9 +184,11 @@ def _tell(
     report: FeasibilityReport,
     scaled: tuple[FrequencyRange, ServoChoice] | None,
     folder: Folder,
+    notices: list[str],
 ) -> None:
     console = Console()
-    print_verdicts(console, f"check, {case.title}", report)
+    print_verdicts(console, f"check, {_title(case, report)}", report)
+    print_notices(console, notices)
     if scaled:
         print_scale(console, *scaled)
     if folder:

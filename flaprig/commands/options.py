@@ -1,13 +1,11 @@
-"""Options that several subcommands share: stroke, wing, fluid and model of the air.
+"""Options that several subcommands share: wing, fluid and model of the air; the stroke's beside.
 
 Degrees live here and nowhere else: every builder returns objects in SI units and radians.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, fields
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from tyro.conf import arg
@@ -15,9 +13,11 @@ from tyro.conf import arg
 from flaprig import _checks as check
 from flaprig.aero.coefficients import DICKINSON_1999, HOVER_TANK, LEE_2016
 from flaprig.aero.models import SUCTION_EFFICIENCY, UVLM, QuasiSteady
+from flaprig.commands.stroke_options import StrokeOptions
 from flaprig.fluid import WATER, Fluid
-from flaprig.strokes import Stroke, SunTangStroke, load
 from flaprig.wing import PITCH_AXIS, RIG_WING, Wing
+
+__all__ = ["FluidOptions", "ModelOptions", "StrokeOptions", "WingOptions"]
 
 # the models' own defaults, shown by --help
 _UVLM, _QUASI_STEADY = UVLM(), QuasiSteady()
@@ -29,71 +29,6 @@ _COEFFICIENTS = {
     "lee2016": LEE_2016,
     "hover-tank": HOVER_TANK,
 }
-
-
-@dataclass(frozen=True)
-class StrokeOptions:
-    """The motion: constant rates with smooth reversals, or what a stroke file says.
-
-    Attributes:
-        frequency: strokes per second [Hz].
-        sweep_amplitude: half of the peak-to-peak sweep [degrees].
-        pitch_amplitude: half of the peak-to-peak pitch, from the vertical [degrees].
-        sweep_duration: length of a sweep reversal [cycles]; 0.5 makes the sweep sinusoidal.
-        pitch_duration: length of a pitch flip [cycles]; 0.5 makes the pitch sinusoidal.
-        file: a stroke file, JSON or CSV, instead of the five options above.
-    """
-
-    frequency: float = 0.2
-    sweep_amplitude: float = 60.0
-    pitch_amplitude: float = 45.0
-    sweep_duration: float = 0.5
-    pitch_duration: float = 0.5
-    file: Annotated[
-        Path | None, arg(name="stroke", metavar="FILE", help_behavior_hint="(optional)")
-    ] = None
-
-    def build(self) -> Stroke:
-        """The stroke.
-
-        Raises:
-            ValueError: a value out of range, a wrong file, or a file and a formula together.
-            OSError: the file cannot be read.
-        """
-        if self.file is not None:
-            _refuse_changed(self, [f.name for f in fields(self)][:-1], "with --stroke FILE")
-            return read_stroke(self.file)
-        for name in ("sweep_amplitude", "pitch_amplitude"):
-            check.in_range("stroke", _flag(name), getattr(self, name), 0.0, 180.0, "degrees")
-        return SunTangStroke(
-            self.frequency,
-            math.radians(self.sweep_amplitude),
-            math.radians(self.pitch_amplitude),
-            self.sweep_duration,
-            self.pitch_duration,
-        )
-
-
-def read_stroke(path: Path, log_frequency: float | None = None) -> Stroke:
-    """The stroke in a file; a CSV is read as a rig's log, which is checked more closely.
-
-    Args:
-        path: JSON of a formula stroke, or CSV of angles against time.
-        log_frequency: strokes per second in [Hz] of a log of many cycles; None: it holds one.
-
-    Raises:
-        ValueError: one sentence on what is wrong in the file.
-        OSError: the file cannot be read.
-    """
-    # scipy comes with it: not for --help
-    from flaprig.logs import read_log
-
-    if not path.read_bytes()[:1000].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
-        return read_log(path, log_frequency).stroke
-    if log_frequency is not None:
-        allowed = "left out unless --stroke FILE is a log"
-        raise check.fail("options", "--log-frequency", allowed, log_frequency)
-    return load(path)
 
 
 @dataclass(frozen=True)

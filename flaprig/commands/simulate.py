@@ -9,9 +9,17 @@ from typing import Annotated
 from tyro.conf import arg
 
 import flaprig
+from flaprig.aero.models import UVLM
 from flaprig.commands import options
 from flaprig.commands.progress import progress
-from flaprig.commands.run_output import Case, tell, timed, write_histories, write_pictures
+from flaprig.commands.run_output import (
+    Case,
+    tell,
+    timed,
+    write_forces,
+    write_histories,
+    write_wake,
+)
 from flaprig.report.folder import Folder
 
 
@@ -45,9 +53,9 @@ def run(args: Simulate, folder: Folder) -> None:
         FloatingPointError: the loads are not finite.
         OSError: a file cannot be read or written.
     """
-    case = Case(
+    case = Case.of(
+        args.stroke.read(),
         args.wing.build(),
-        args.stroke.build(),
         args.model.build(),
         args.fluid.build(),
         args.cycles,
@@ -57,7 +65,16 @@ def run(args: Simulate, folder: Folder) -> None:
         result = flaprig.simulate(
             case.wing, case.stroke, case.model, case.fluid, case.cycles, progress=told
         )
-    summary = {"command": "simulate", **case.summary(), **result.summary(), **spent}
+    summary = {
+        "command": "simulate",
+        **case.summary(),
+        **result.summary(),
+        "notices": case.all_notices(*result.notices),
+        **spent,
+    }
     write_histories(folder, result.save, summary)
-    write_pictures(folder, case, result)
+    if folder:
+        write_forces(folder, case, result, case.title)
+        if isinstance(case.model, UVLM):
+            write_wake(folder, case)
     tell(args.json, case.title, summary, folder)

@@ -8,9 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import arg
 
+from flaprig.aero.models import UVLM
 from flaprig.commands import options
 from flaprig.commands.progress import progress
-from flaprig.commands.run_output import Case, tell, timed, write_histories, write_pictures
+from flaprig.commands.run_output import (
+    WAKE_INSTANT,
+    Case,
+    draw_wake_of,
+    tell,
+    timed,
+    write_forces,
+    write_histories,
+)
 from flaprig.commands.servo_options import ServoOptions
 from flaprig.report.folder import Folder
 from flaprig.report.motors import draw_motors
@@ -54,9 +63,9 @@ def run(args: Twin, folder: Folder) -> None:
         ImportError: the plugin library is missing or does not fit MuJoCo.
         OSError: a file cannot be read or written.
     """
-    case = Case(
+    case = Case.of(
+        args.stroke.read(),
         args.wing.build(),
-        args.stroke.build(),
         args.model.build(),
         args.fluid.build(),
         args.cycles,
@@ -64,11 +73,26 @@ def run(args: Twin, folder: Folder) -> None:
     folder.create()
     with timed() as spent, progress("twin") as told:
         done = fly(case, args.time_step, told, args.servo)
-    summary = {"command": "twin", **case.summary(), **done.summary(), **spent}
+    summary = {
+        "command": "twin",
+        **case.summary(),
+        **done.summary(),
+        "notices": case.all_notices(*done.notices),
+        **spent,
+    }
+    title = f"twin, {flown_title(case, done)}"
     write_histories(folder, done.save, summary)
-    write_motors(folder, done, case)
-    write_pictures(folder, case, done.result)
-    tell(args.json, f"twin, {case.title}", summary, folder)
+    if folder:
+        write_motors(folder, done, case)
+        write_forces(folder, case, done.result, title)
+        if isinstance(case.model, UVLM):
+            write_flown_wake(folder, case, args)
+    tell(args.json, title, summary, folder)
+
+
+def flown_title(case: Case, done: TwinRun) -> str:
+    """One line that says what was flown, and what was asked for."""
+    return case.title_of(done.flown_amplitude("sweep"), done.flown_amplitude("pitch"))
 
 
 def fly(
@@ -90,7 +114,16 @@ def rig_of(case: Case) -> Rig:
 
 
 def write_motors(folder: Folder, done: TwinRun, case: Case) -> None:
-    """motors.png."""
-    title = f"Servos, {case.title}"
-    period = case.stroke.period
-    folder.write("motors.png", lambda draft: draw_motors(draft, done.motors, period, title))
+    """motors.png, with the stroke asked for in grey."""
+    title = f"Servos, {flown_title(case, done)}"
+    folder.write("motors.png", lambda draft: draw_motors(draft, done.motors, case.stroke, title))
+
+
+def write_flown_wake(folder: Folder, case: Case, args: Twin) -> None:
+    """wake.png: the twin's own wake, from the plugin's state in the third cycle."""
+    from flaprig.report.flown import flown_snapshot
+
+    machine = args.servo.twin(rig_of(case), args.time_step)
+    with progress("wake"):
+        shot, amplitudes = flown_snapshot(machine, case.stroke, WAKE_INSTANT)
+    draw_wake_of(folder, shot, amplitudes[0], f"twin, {case.title_of(*amplitudes)}")

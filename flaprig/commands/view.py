@@ -7,16 +7,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+from rich.console import Console
 from tyro.conf import arg
 
 from flaprig import _checks as check
 from flaprig.commands import options
 from flaprig.report import gl
 from flaprig.report.folder import Folder
+from flaprig.report.table import print_notices
 
 if TYPE_CHECKING:
     from flaprig.report.film import Format
     from flaprig.report.flight import Flight
+    from flaprig.strokes import Stroke
+    from flaprig.twin import Twin
 
 # pictures per second of the window
 WINDOW_RATE = 60.0
@@ -64,11 +68,13 @@ def run(args: View, folder: Folder) -> None:
     from flaprig.rig import Rig
     from flaprig.twin import Twin
 
-    stroke = args.stroke.build()
+    asked = args.stroke.read()
+    stroke = asked.stroke
     rig = Rig.load().with_(
         wing=args.wing.build(), fluid=args.fluid.build(), model=args.model.build()
     )
     form = _format(args)
+    print_notices(Console(), [*asked.notices, *_changes(Twin(rig), stroke)])
     if args.video is None and gl.has_display():
         show(Flight(Twin(rig), stroke))
         return
@@ -80,6 +86,14 @@ def run(args: View, folder: Folder) -> None:
     print(f"{done.path}: {done.words}")
     if args.video is None:
         print("MuJoCo's viewer opens where there is a display (DISPLAY or WAYLAND_DISPLAY is set).")
+
+
+def _changes(twin: Twin, stroke: Stroke) -> tuple[str, ...]:
+    """What the servos' limits change of the stroke."""
+    from flaprig.limits import project
+    from flaprig.set_points import own_limits
+
+    return project(stroke, own_limits(twin.rig, twin.rig.spec().compile())).notices
 
 
 def _format(args: View) -> Format:

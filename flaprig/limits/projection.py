@@ -30,6 +30,8 @@ ACTIVE_WITHIN = 1e-6
 KEPT_WITHIN = 1e-6
 # least amplitude that can be lost [rad]
 LEAST_AMPLITUDE = 1e-9
+# a change that is told [rad]: one count of the rig's encoders, less a servo cannot tell
+TOLD = 2.0 * np.pi / 4096.0
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,8 @@ class Projection:
         stroke: the projected stroke; the wanted one itself, the same object, where it is feasible.
         sweep: what was done to the sweep.
         pitch: what was done to the pitch.
-        notices: sentences on amplitudes that were to be kept and could not.
+        notices: sentences on what was changed by more than an encoder can tell, and on amplitudes
+            that were to be kept and could not.
     """
 
     stroke: Stroke
@@ -146,6 +149,8 @@ def _projected(
             notices.append(_notice(joint, part, allowed, stroke.frequency))
             if strict:
                 raise ValueError(f"project: {notices[-1]}")
+        if part.distance_max > TOLD:
+            notices.append(_change(joint, part, wanted, allowed))
         angles.append(spline.values(found, np.arange(samples + 1) / samples))
         parts.append(part)
     # closed sampling: the last sample is the first again
@@ -236,6 +241,29 @@ def _compared(
 def _reaches(values: tuple[float, float], bounds: Array) -> bool:
     room = ACTIVE_WITHIN * 0.5 * (bounds[1] - bounds[0])
     return bool(values[1] >= bounds[1] - room or values[0] <= bounds[0] + room)
+
+
+def _change(joint: str, part: JointProjection, wanted: Array, allowed: JointLimits) -> str:
+    """One sentence on a joint whose motion was changed."""
+    kept = part.amplitude_ratio * part.amplitude
+    bounds = " and ".join(part.active) or "its limits"
+    sentence = (
+        f"{joint} was changed to stay within {bounds}: amplitude {in_words(kept)} instead of "
+        f"{in_words(part.amplitude)}, {in_words(part.distance_rms)} rms away from the stroke asked "
+        "for"
+    )
+    low, high = allowed.position
+    middle = 0.5 * float(wanted.max() + wanted.min())
+    beyond = wanted.max() > high or wanted.min() < low
+    if beyond and np.ptp(wanted) <= high - low:
+        shift = 0.5 * (low + high) - middle
+        sentence += f"; shifted by {in_words(shift)} it fits between the joint's stops"
+    return sentence
+
+
+def in_words(angle: float) -> str:
+    """An angle in [rad] as «0.34 rad (19.5 deg)»."""
+    return f"{angle:.4g} rad ({np.degrees(angle):.4g} deg)"
 
 
 def _notice(joint: str, part: JointProjection, allowed: JointLimits, frequency: float) -> str:

@@ -46,8 +46,21 @@ class Trajectory:
     joined_at: float
     left_at: float
 
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """What was changed of the stroke that was wanted; sentences."""
+        return self.projection.notices
+
+    @property
+    def following(self) -> NDArray[np.bool_]:
+        """Set points at which the stroke is followed, and not joined or left. Shape (n,)."""
+        time, room = self.motion.time, 0.5 * self.interval
+        return np.asarray((time > self.joined_at - room) & (time < self.left_at + room))
+
     def columns(self, torque: ArrayLike | None = None) -> dict[str, Array]:
         """Arrays by name with unit: time_s, sweep_rad, ..., sweep_torque_Nm when it is given.
+
+        `following` is 1 where the stroke is followed and 0 during start and stop.
 
         Args:
             torque: of the sweep and the pitch servo at the set points in [N m]. Shape (n, 2).
@@ -59,6 +72,7 @@ class Trajectory:
         for ending, unit in UNITS.items():
             for joint in JOINTS:
                 table[f"{joint}{ending}_{unit}"] = getattr(self.motion, joint + ending)
+        table["following"] = self.following.astype(np.float64)
         if torque is not None:
             values = _checked_torque(torque, self.motion.time.size)
             table |= {f"{joint}_torque_Nm": values[:, i] for i, joint in enumerate(JOINTS)}
@@ -77,6 +91,7 @@ class Trajectory:
             "joined_at_s": self.joined_at,
             "left_at_s": self.left_at,
             "projection_rms_rad": self.projection.distance_rms,
+            "notices": list(self.notices),
         }
         write_table("Trajectory.save", path, self.columns(torque), summary)
 

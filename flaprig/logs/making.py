@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import degrees
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +10,12 @@ from numpy.typing import NDArray
 from flaprig.logs import period as periods
 from flaprig.logs.doubts import doubts_of, shift_of
 from flaprig.logs.exact import exact_stroke
+from flaprig.logs.frequency import with_period
 from flaprig.logs.motion import (
     JOINTS,
     Periodic,
     degrees_of,
     ends_of,
-    moving_part,
     noise_of,
     periodic,
 )
@@ -27,13 +26,6 @@ from flaprig.strokes.sampled import SampledStroke
 
 Array = NDArray[np.float64]
 
-# a frequency that is given may move the last cycle by this much, in cycles, without a word and
-# with one; beyond that it is refused
-_DRIFT_TOLD, _DRIFT = 0.01, 0.05
-# a ratio of periods is a whole number within this
-_WHOLE = 0.02
-# a record that moves for more than this share of its length has no rest at its ends
-_ALL_MOVES = 0.97
 # cycles that differ by this share of the joint's half range are told, are refused
 _DIFFER_TOLD, _DIFFER = 0.02, 0.3
 # strays in the middle of the motion that are told; beyond this share it is not periodic
@@ -79,7 +71,7 @@ def make_stroke(record: Record, frequency: float | None, center: bool) -> Made:
         ValueError: no period, another one than is given, or cycles that differ.
     """
     _require_motion(record)
-    record, period = _with_period(record, frequency)
+    record, period, repeated = with_period(record, frequency)
     step = float(np.median(np.diff(record.time)))
     if period / step < _LEAST_SAMPLES - 0.5:
         raise ValueError(
@@ -88,12 +80,13 @@ def make_stroke(record: Record, frequency: float | None, center: bool) -> Made:
     length = float(record.time[-1] - record.time[0])
     # one cycle has nothing beside it that would tell a start from the motion
     several = length > _SEVERAL * period
-    found = periodic(record.time, (record.sweep, record.pitch), 1.0 / period, ends=several)
+    angles = (record.sweep, record.pitch)
+    found = periodic(record.time, angles, 1.0 / period, ends=several, begin=repeated)
     if frequency is None and several and not found.kept.all():
         # what was left out has pulled at the period, too
         part = record.part(found.kept)
         period = periods.refined(part.time, (part.sweep, part.pitch), period)
-        found = periodic(record.time, (record.sweep, record.pitch), 1.0 / period)
+        found = periodic(record.time, angles, 1.0 / period, begin=repeated)
     record = _kept(record, found)
     _require_like_cycles(record, found, period)
     notices = list(record.notices) + _told_scatter(record, found)
@@ -118,24 +111,6 @@ def make_stroke(record: Record, frequency: float | None, center: bool) -> Made:
     )
 
 
-def _with_period(record: Record, frequency: float | None) -> tuple[Record, float]:
-    """The period in [s], and the record without the rest around the motion."""
-    moving = moving_part((record.sweep, record.pitch))
-    whole = record.time[-1] - record.time[0]
-    part = record.part(moving)
-    rests = part.time[-1] - part.time[0] < _ALL_MOVES * whole
-    tried = [part, record] if rests else [record]
-    if frequency is not None:
-        found = next(filter(None, (_repeats(r) for r in tried)), None)
-        _require_frequency(tried[0], frequency, found)
-        return _noted(tried[0], record, frequency, found), 1.0 / frequency
-    for each in tried:
-        found = _repeats(each) or periods.one_cycle(each.time, (each.sweep, each.pitch))
-        if found is not None:
-            return _noted(each, record, None, found), found
-    raise ValueError(_not_periodic(record))
-
-
 def _require_motion(record: Record) -> None:
     """Refuse a record in which both joints stand still."""
     spans = [float(np.ptp(angle)) for angle in (record.sweep, record.pitch)]
@@ -146,74 +121,6 @@ def _require_motion(record: Record) -> None:
             f"nothing moves: sweep stays within {degrees_of(spans[0])} and pitch within "
             f"{degrees_of(spans[1])}"
         )
-
-
-def _repeats(record: Record) -> float | None:
-    return periods.repeats(record.time, (record.sweep, record.pitch))
-
-
-def _noted(part: Record, whole: Record, frequency: float | None, found: float | None) -> Record:
-    """The part, with words on what was cut and on a frequency that is nearly right."""
-    notices = list(part.notices)
-    if part.time.size < whole.time.size:
-        before, after = part.time[0] - whole.time[0], whole.time[-1] - part.time[-1]
-        notices.append(
-            f"rest was cut: {before:.3g} s before and {after:.3g} s after the motion (lines "
-            f"{part.lines[0]} to {part.lines[-1]} are used)"
-        )
-    if frequency is not None and found is not None:
-        drift = abs(frequency - 1.0 / found) * (part.time[-1] - part.time[0])
-        if drift > _DRIFT_TOLD:
-            notices.append(
-                f"at {frequency:.6g} Hz the cycles drift by {drift:.2g} of a cycle over the log; "
-                f"the best frequency is {1.0 / found:.6g} Hz"
-            )
-    return replace(part, notices=tuple(notices))
-
-
-def _require_frequency(record: Record, frequency: float, found: float | None) -> None:
-    """Refuse a frequency that the samples do not have."""
-    period, length = 1.0 / frequency, float(record.time[-1] - record.time[0])
-    best = "" if found is None else f"; the best period is {found:.4g} s ({1.0 / found:.6g} Hz)"
-    if period > length + periods.STEPS_SHORT * float(np.median(np.diff(record.time))):
-        raise ValueError(
-            f"a log must cover one whole cycle of {period:.6g} s, got {length:.6g} s{best}"
-        )
-    if found is None:
-        return
-    times = period / found
-    if round(times) >= 2 and abs(times - round(times)) < _WHOLE * round(times):
-        raise ValueError(
-            f"at {frequency:.6g} Hz every cycle holds the motion {round(times)} times{best}"
-        )
-    if abs(frequency - 1.0 / found) * length > _DRIFT:
-        worst = _difference(record, frequency)
-        raise ValueError(
-            f"at {frequency:.6g} Hz the cycles differ from their mean by {worst}{best}"
-        )
-
-
-def _difference(record: Record, frequency: float) -> str:
-    """How far single cycles are from the mean of all, as words."""
-    angles = (record.sweep, record.pitch)
-    spread = [
-        float(np.percentile(np.abs(angle - series(record.time)), 98.0))
-        for angle, series in zip(
-            angles, periodic(record.time, angles, frequency, trim=False).fits, strict=True
-        )
-    ]
-    return f"up to {degrees(max(spread)):.3g} deg"
-
-
-def _not_periodic(record: Record) -> str:
-    ends = [
-        f"{joint} ends {degrees_of(abs(float(angle[-1] - angle[0])))} from where it begins"
-        for joint, angle in (("sweep", record.sweep), ("pitch", record.pitch))
-    ]
-    return (
-        "the motion is not periodic: nothing in it repeats, and it is not one whole cycle, since "
-        f"{' and '.join(ends)} (half a cycle? a step? a log must cover one whole cycle or several)"
-    )
 
 
 def _kept(record: Record, found: Periodic) -> Record:

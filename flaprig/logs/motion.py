@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 JOINTS = ("sweep", "pitch")
+_ALL = slice(None)
 # a sample is dropped that lies this many robust standard deviations from the series
 _FAR = 6.0
 # and by this share of the joint's range, and by this angle [rad]: three counts of 4096
@@ -87,6 +88,7 @@ def periodic(
     frequency: float,
     trim: bool = True,
     ends: bool = True,
+    begin: slice = _ALL,
 ) -> Periodic:
     """Series through the samples that belong to the periodic motion.
 
@@ -96,8 +98,10 @@ def periodic(
         frequency: of the motion in [Hz].
         trim: whether samples far from the series are left out.
         ends: whether what is far at an end is a start or a stop.
+        begin: samples that the first series goes through.
     """
-    kept = np.ones(time.size, dtype=bool)
+    kept = np.zeros(time.size, dtype=bool)
+    kept[begin] = True
     fits = _fits(time, angles, frequency, kept)
     for _ in range(_ROUNDS if trim else 0):
         near = np.ones(time.size, dtype=bool)

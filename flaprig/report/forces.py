@@ -12,11 +12,15 @@ from numpy.typing import NDArray
 
 from flaprig.aero.result import Result
 from flaprig.report import style
+from flaprig.strokes.stroke import Stroke
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Array = NDArray[np.float64]
+
+# difference of angles that a picture shows [degrees]
+LEAST_DIFFERENCE = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +54,9 @@ def cycles_of(result: Result, history: Array) -> tuple[Array, Array]:
     return np.linspace(0.0, 1.0, n + 1), closed[first - 1 : last]
 
 
-def draw_forces(path: Path, curves: Sequence[Curve], title: str) -> None:
+def draw_forces(
+    path: Path, curves: Sequence[Curve], title: str, asked: Stroke | None = None
+) -> None:
     """Picture of lift and drag coefficients over one cycle.
 
     The line is the mean of the averaged cycles at each t/T, the band their smallest and largest.
@@ -59,6 +65,7 @@ def draw_forces(path: Path, curves: Sequence[Curve], title: str) -> None:
         path: where to write; the ending chooses the format.
         curves: the runs; the first one's motion is shown.
         title: above the picture.
+        asked: the stroke that was asked for, drawn in grey behind the angles.
     """
     with style.figure(7.0, 6.4) as drawing:
         lift, drag, angles = drawing.subplots(
@@ -73,7 +80,7 @@ def draw_forces(path: Path, curves: Sequence[Curve], title: str) -> None:
             axes.axhline(0.0, color=style.GREY, linewidth=0.8, zorder=1)
             axes.margins(y=0.06)
             _legend(axes)
-        _draw_angles(angles, curves[0].result)
+        _draw_angles(angles, curves[0].result, asked)
         first, last = curves[0].result.averaged_cycles
         if first < last:
             note = f"lines: mean of cycles {first} to {last}; bands: their smallest and largest"
@@ -91,13 +98,20 @@ def _draw(axes: Axes, curve: Curve, history: Array, mean: float) -> None:
     axes.plot(phase, rows.mean(axis=0), curve.line, color=curve.colour, label=label)
 
 
-def _draw_angles(axes: Axes, result: Result) -> None:
-    """Sweep and pitch, labelled on the lines."""
-    motions = (("sweep", result.histories.sweep, "-"), ("pitch", result.histories.pitch, "--"))
-    for name, history, line in motions:
-        phase, rows = cycles_of(result, np.degrees(history))
-        axes.plot(phase, rows.mean(axis=0), line, color=style.INK, linewidth=1.3, label=name)
-    most = 30.0 * np.ceil(np.degrees(np.abs(result.histories.sweep).max()) / 30.0 + 1e-9)
+def _draw_angles(axes: Axes, result: Result, asked: Stroke | None) -> None:
+    """Sweep and pitch, and behind them what was asked for where it is another motion."""
+    largest = 0.0
+    for name, line in (("sweep", "-"), ("pitch", "--")):
+        phase, rows = cycles_of(result, np.degrees(getattr(result.histories, name)))
+        made = rows.mean(axis=0)
+        largest = max(largest, float(np.abs(made).max()))
+        if asked is not None:
+            wanted = np.degrees(getattr(asked.motion(phase * asked.period), name))
+            if np.abs(wanted - made).max() > LEAST_DIFFERENCE:
+                axes.plot(phase, wanted, line, color=style.GREY, lw=1.3, label=f"{name} asked")
+                largest = max(largest, float(np.abs(wanted).max()))
+        axes.plot(phase, made, line, color=style.INK, linewidth=1.3, label=name)
+    most = 30.0 * np.ceil(largest / 30.0 + 1e-9)
     axes.set(xlim=(0.0, 1.0), xticks=np.linspace(0.0, 1.0, 5), ylim=(-most, most))
     axes.set_yticks([-most, 0.0, most])
     axes.set(xlabel="time over period $t/T$", ylabel="angle [°]")
@@ -107,4 +121,4 @@ def _draw_angles(axes: Axes, result: Result) -> None:
 
 def _legend(axes: Axes) -> None:
     """Above the axes, two names a row, so that it hides no line."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.2)
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.2)

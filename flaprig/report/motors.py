@@ -14,28 +14,33 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from flaprig.motor_histories import MotorHistories
+    from flaprig.strokes.stroke import Motion, Stroke
 
 Array = NDArray[np.float64]
 
 # the first part of a run, in cycles, whose jolt must not set the scale: servos start from rest
 START_UP = 0.1
+# difference of angles that a picture shows [rad]: half a degree
+LEAST_DIFFERENCE = np.radians(0.5)
 # the two servos and their colours
 SERVOS = (("sweep", style.VERMILION), ("pitch", style.BLUE))
 
 
-def draw_motors(path: Path, motors: MotorHistories, period: float, title: str) -> None:
+def draw_motors(path: Path, motors: MotorHistories, asked: Stroke, title: str) -> None:
     """Picture of both servos over the whole run.
 
     Args:
         path: where to write; the ending chooses the format.
         motors: histories, angles in [rad], torques in [N m], currents in [A].
-        period: of the stroke in [s].
+        asked: the stroke that was asked for, drawn in grey where it is not what was commanded.
         title: above the picture.
     """
-    cycles = motors.time / period
+    cycles = motors.time / asked.period
+    wanted = asked.motion(motors.time)
     with style.figure(7.0, 7.2) as drawing:
         rows = drawing.subplots(4, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 3, 2]})
         for name, colour in SERVOS:
+            _draw_asked(rows[0], cycles, motors, wanted, name)
             _draw_servo(rows, cycles, motors, name, colour)
         units = ("angle [°]", "error [°]", "torque [N m]", "current [A]")
         for axes, unit in zip(rows, units, strict=True):
@@ -47,6 +52,16 @@ def draw_motors(path: Path, motors: MotorHistories, period: float, title: str) -
         drawing.align_ylabels()
         drawing.suptitle(title, x=0.01, ha="left", fontsize=11.5)
         style.save(drawing, path)
+
+
+def _draw_asked(
+    axes: Axes, cycles: Array, motors: MotorHistories, wanted: Motion, name: str
+) -> None:
+    """The angle asked for, where another one was commanded."""
+    angle, command = getattr(wanted, name), getattr(motors, f"{name}_command")
+    steady = cycles >= min(START_UP, 0.5 * cycles[-1])
+    if np.abs(angle - command)[steady].max() > LEAST_DIFFERENCE:
+        axes.plot(cycles, np.degrees(angle), color=style.GREY, lw=1.0, label=f"{name} asked")
 
 
 def _draw_servo(rows: Any, cycles: Array, motors: MotorHistories, name: str, colour: str) -> None:
@@ -73,4 +88,4 @@ def _scale(axes: Axes, cycles: Array) -> None:
 
 def _legend(axes: Axes) -> None:
     axes.plot([], [], ":", color=style.INK, lw=1.2, label="command")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.2)
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=5, borderaxespad=0.2)

@@ -73,13 +73,18 @@ def snapshots(
         if progress is not None:
             progress(done / len(motion))
         points = wing_points(wing, motion.rotation[count])
-        yield Snapshot(count * step, points, *_joined(wing, motion.rotation[count], *air.wake()))
+        yield Snapshot(
+            count * step, points, **joined(wing, motion.rotation[count], *air.wake())
+        )
 
 
-def _joined(wing: Wing, rotation: Array, wake: Array, circulation: Array) -> tuple[Array, Array]:
+def joined(wing: Wing, rotation: Array, wake: Array, circulation: Array) -> dict[str, Array]:
     """The wake with a row of rings between the trailing edge and its newest vertices."""
     radius, chord, edge = wing.stations.T
     y = np.clip(wake[0] @ rotation[:, 1], radius[0], radius[-1])
     x = np.interp(y, radius, edge + chord)
     trailing = np.outer(x, rotation[:, 0]) + np.outer(y, rotation[:, 1])
-    return np.concatenate([trailing[None], wake]), np.concatenate([circulation[:1], circulation])
+    return {
+        "wake": np.concatenate([trailing[None], wake]),
+        "circulation": np.concatenate([circulation[:1], circulation]),
+    }

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 # columns of coefficients: key of a summary, heading
 COEFFICIENTS = (("cl", "C_L"), ("cd", "C_D"), ("lift_to_drag", "L/D"))
@@ -25,6 +26,13 @@ _LOADS = (
 )
 
 
+def with_grey_brackets(title: str) -> Text:
+    """A title in bold, with what was asked for, which stands in brackets, in grey."""
+    text = Text(title, style="bold")
+    text.highlight_regex(r"\(asked [^)]*\)", "not bold grey50")
+    return text
+
+
 def with_spread(summary: Mapping[str, Any], key: str) -> str:
     """A mean and its spread from cycle to cycle, as «1.939 ±0.007»."""
     spread = summary.get(f"{key}_spread")
@@ -35,7 +43,10 @@ def with_spread(summary: Mapping[str, Any], key: str) -> str:
 
 def print_run(console: Console, title: str, summary: Mapping[str, Any]) -> None:
     """One run: coefficients with their spread, loads with their unit."""
-    table = Table(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False)
+    table = Table(
+        title=with_grey_brackets(title), title_justify="left", title_style="", box=None,
+        pad_edge=False,
+    )
     table.add_column("quantity")
     table.add_column("value", justify="right")
     table.add_column("unit")
@@ -44,8 +55,19 @@ def print_run(console: Console, title: str, summary: Mapping[str, Any]) -> None:
     for key, words, unit in _LOADS:
         if key in summary:
             table.add_row(words, f"{summary[key]:.4g}", unit)
+    for joint in ("sweep", "pitch"):
+        flown = summary.get(f"flown_{joint}_amplitude_rad")
+        if flown is not None:
+            table.add_row(f"{joint} amplitude flown", f"{math.degrees(flown):.4g}", "deg")
     console.print(table)
     console.print(averaging(summary))
+
+
+def print_notices(console: Console, notices: Iterable[str]) -> None:
+    """What was changed or is doubtful, a line each, under a table."""
+    for notice in notices:
+        text = Text.assemble(("Notice: ", "bold yellow"), notice)
+        console.print(text, soft_wrap=True, highlight=False)
 
 
 def averaging(summary: Mapping[str, Any]) -> str:

@@ -49,13 +49,17 @@ def draw_torque_speed(path: Path, report: FeasibilityReport, title: str) -> None
     with style.figure(9.6, 5.2) as drawing:
         for axes, (joint, colour) in zip(drawing.subplots(1, 2), COLOURS.items(), strict=True):
             motor, work = getattr(report.rig.motors, joint), report.work(joint)
-            point = line_point(motor, work)
+            # what is judged: a stroke that the rig cannot make stands in grey beside the flown one
+            asked = report.asked_work.get(joint)
+            point = line_point(motor, asked or work)
             _draw_motor(axes, motor, warm_stall_torque(motor, work.rms_torque))
             speed, torque = folded(work)
-            _scale(axes, motor, speed, torque)
-            _draw_loop(axes, work, point, colour)
+            _scale(axes, motor, *(folded(asked) if asked else (speed, torque)))
+            if asked:
+                _draw_loop(axes, asked, point, style.GREY)
+            _draw_loop(axes, work, line_point(motor, work), colour)
             if _is_small(axes, torque):
-                _draw_inset(axes, motor, work, point, colour)
+                _draw_inset(axes, motor, work, line_point(motor, work), colour)
             _tell_point(axes, point)
             axes.set_title(_heading(report, joint))
             axes.set_xlabel(f"speed of the {joint} [rad/s]")
@@ -165,20 +169,22 @@ def _legend(drawing: Figure, report: FeasibilityReport) -> None:
     from matplotlib.patches import Patch
 
     own = report.rig.motors
+    asked = [Line2D([], [], color=style.GREY, lw=1.4, label="as asked")] * bool(report.asked_work)
     volts = " and ".join(sorted({f"{motor.voltage:g} V" for motor in (own.sweep, own.pitch)}))
     handles = [
         Line2D([], [], color=style.INK, lw=2.0, label=f"the motor at {volts}"),
         Line2D([], [], color=style.INK, lw=1.0, ls="--", label="when warm"),
         Patch(color=style.SKY, alpha=0.35, lw=0, label="continuous torque"),
         Line2D([], [], color=style.GREY, lw=1.0, ls=":", label="equal power"),
-        Line2D([], [], color=style.VERMILION, lw=1.4, label="the stroke"),
+        Line2D([], [], color=style.VERMILION, lw=1.4, label="the stroke flown"),
+        *asked,
         Line2D([], [], color=style.VERMILION, lw=0.9, ls=(0, (6, 3)), label="its rms torque"),
         Line2D([], [], ls="", marker="o", color="white", mec=style.INK, label="nearest point"),
     ]
     settings: dict[str, Any] = {
         "ncols": len(handles),
-        "fontsize": 8.5,
-        "columnspacing": 1.3,
+        "fontsize": 8.0 if asked else 8.5,
+        "columnspacing": 1.3 - 0.3 * bool(asked),
         "handlelength": 1.8,
     }
     drawing.legend(handles=handles, loc="outside lower center", **settings)

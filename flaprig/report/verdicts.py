@@ -13,6 +13,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from flaprig.report.table import with_grey_brackets
+
 if TYPE_CHECKING:
     from flaprig.feasibility import FeasibilityReport, Verdict
     from flaprig.scaling import FrequencyRange
@@ -23,14 +25,20 @@ NARROW = 0.1
 
 
 def print_verdicts(console: Console, title: str, report: FeasibilityReport) -> None:
-    """One row a limit, and the whole verdict in a sentence."""
-    table = _table(title, ("quantity", "value", "bound", "unit", "margin"))
+    """One row a limit, and the whole verdict in a sentence.
+
+    A stroke that the rig cannot make has two columns of values: what it would need as asked, which
+    is judged, and what the nearest stroke needs, in grey.
+    """
+    two = any(verdict.nearest is not None for verdict in report.verdicts)
+    columns = ("as asked", "nearest") if two else ("value",)
+    table = _table(title, ("quantity", *columns, "bound", "unit", "margin"))
     before = ""
     for verdict in report.verdicts:
         if verdict.joint != before and before:
             table.add_section()
         before = verdict.joint
-        table.add_row(*_cells(verdict))
+        table.add_row(*_cells(verdict, two))
     console.print(table)
     console.print(conclusion(report), highlight=False, soft_wrap=True)
 
@@ -102,15 +110,19 @@ def number(value: float) -> str:
 
 def _table(title: str, columns: tuple[str, ...]) -> Table:
     table = Table(
-        title=title, title_justify="left", title_style="bold", box=SIMPLE_HEAD, show_edge=False
+        title=with_grey_brackets(title),
+        title_justify="left",
+        title_style="",
+        box=SIMPLE_HEAD,
+        show_edge=False,
     )
     for name in columns:
-        numeric = name in ("value", "bound", "margin", "mass [g]")
+        numeric = name in ("value", "as asked", "nearest", "bound", "margin", "mass [g]")
         table.add_column(name, justify="right" if numeric else "left", no_wrap=name != "broken")
     return table
 
 
-def _cells(verdict: Verdict) -> tuple[str | Text, ...]:
+def _cells(verdict: Verdict, two: bool) -> tuple[str | Text, ...]:
     factor, unit = 1.0, verdict.unit
     if unit.startswith("rad"):
         factor, unit = 180.0 / math.pi, "deg" + unit[3:]
@@ -119,4 +131,11 @@ def _cells(verdict: Verdict) -> tuple[str | Text, ...]:
     narrow = verdict.margin is not None and not verdict.margin >= NARROW
     margin = Text(percent(verdict.margin), style=style if narrow else "")
     words = Text(verdict.words, style="" if verdict.holds else "red bold")
-    return words, number(factor * verdict.value), bound, unit, margin
+    values: list[str | Text] = [number(factor * verdict.value)]
+    if two:
+        near = "" if verdict.nearest is None else number(factor * verdict.nearest)
+        values.append(Text(near, style="grey50"))
+        if near == "":
+            # of the nearest stroke alone: its distance, and what it costs
+            values.reverse()
+    return words, *values, bound, unit, margin

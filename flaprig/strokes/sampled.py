@@ -1,7 +1,8 @@
 """Strokes from samples of one period, joined by a periodic quintic spline.
 
 The spline has four continuous derivatives, so accelerations are smooth; it passes through every
-sample, so noise is not removed: smooth measured angles before.
+sample, so noise is not removed: `flaprig.read_log` fits measured angles instead, and a stroke whose
+samples look measured says so in its notices.
 """
 
 from __future__ import annotations
@@ -38,6 +39,12 @@ CLOSED_WITHIN = 1e-9
 UNIFORM_WITHIN = 1e-3
 # smallest step of the time, over the period
 LEAST_STEP = 1e-6
+# harmonics that make a motion without its noise, and instants at which both are compared
+LOW_HARMONICS, COMPARED = 20, 4096
+# a peak acceleration so many times that of the low harmonics is noise [1]
+MANY_TIMES = 3.0
+# least acceleration that is compared, over amplitude times frequency squared
+LEAST_SHARE = 1e-3
 # first line of a file of samples
 HEADER = "time_s,sweep_rad,pitch_rad"
 
@@ -127,6 +134,31 @@ class SampledStroke(PeriodicStroke):
             sweep_acceleration=f**2 * phi[2],
             pitch_acceleration=f**2 * theta[2],
         )
+
+    @cached_property
+    def notices(self) -> tuple[str, ...]:
+        """What is doubtful about the samples: sentences; none where they look exact.
+
+        The second derivative of measured angles is mostly that of their noise.
+        """
+        found = []
+        count = max(COMPARED, 2 * len(self.time))
+        motion = self.motion(self.time[0] + np.arange(count) * self.period / count)
+        for joint in ("sweep", "pitch"):
+            own = getattr(motion, f"{joint}_acceleration")
+            low = np.fft.rfft(own)
+            low[LOW_HARMONICS + 1 :] = 0.0
+            smooth = float(np.abs(np.fft.irfft(low, count)).max())
+            peak = float(np.abs(own).max())
+            least = LEAST_SHARE * float(np.ptp(getattr(motion, joint))) * self.frequency**2
+            if peak > max(MANY_TIMES * smooth, least):
+                times = f"{peak / smooth:.3g} times" if smooth > 0.0 else "beyond"
+                found.append(
+                    f"{joint}: the samples' peak acceleration of {peak:.4g} rad/s2 is {times} that "
+                    f"of their first {LOW_HARMONICS} harmonics: noise of a measurement? "
+                    "(flaprig.read_log fits it)"
+                )
+        return tuple(found)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the samples as CSV, time_s,sweep_rad,pitch_rad, whole or not at all."""
