@@ -14,6 +14,10 @@ Array = NDArray[np.float64]
 _NOISE = 0.01
 # a spline whose peak acceleration is this many times the series' has taken noise for motion
 _MANY = 3.0
+# harmonics below which samples are too few to show a floor of noise
+_FEW = 12
+# what an encoder is off by at most [rad]
+_ENCODER = 0.005
 # steps of samples that are exact differ by no more than this share
 _EVEN = 1e-3
 # a cycle is a whole number of steps within this
@@ -43,10 +47,27 @@ def exact_stroke(
         smooth = _acceleration(series, instants)
         most = float(np.abs(smooth).max())
         apart = float(np.sqrt(np.mean((own - smooth) ** 2)))
-        noisy = apart > _NOISE * most if series.has_floor else np.abs(own).max() > _MANY * most
-        if noisy and np.abs(own).max() > 1e-9:
+        peak = float(np.abs(own).max())
+        if peak > 1e-9 and _is_noise(series, apart, peak, most):
             return None
     return stroke
+
+
+def _is_noise(series: Fit, apart: float, peak: float, most: float) -> bool:
+    """Whether what the spline has beyond the series is noise.
+
+    Args:
+        series: through the samples.
+        apart: root mean square of both accelerations' difference.
+        peak: acceleration of the spline.
+        most: peak acceleration of the series.
+    """
+    if series.most < _FEW:
+        # too few samples to tell: what is left is motion where it is more than encoders are off
+        return series.residual_rms < _ENCODER and apart > _NOISE * most
+    if series.has_floor:
+        return apart > _NOISE * most
+    return peak > _MANY * most
 
 
 def _sampled(time: Array, angles: tuple[Array, Array], period: float) -> SampledStroke | None:

@@ -1,10 +1,10 @@
 """Periodic signals by least squares: few harmonics through all samples at their own times.
 
-How many harmonics: the number of least corrected Akaike information criterion (C. Hurvich & C.-L.
-Tsai, Regression and time series model selection in small samples, Biometrika 76 (1989) 297), which
-is the one of least expected error where, as in a flip, there is no last harmonic. A harmonic must
-lower the sum of squares by more than the noise of the data itself does, so white noise and the
-steps of an encoder add none or few.
+How many harmonics: the number of least Hannan-Quinn criterion (E. Hannan & B. Quinn, The
+determination of the order of an autoregression, J. R. Stat. Soc. B 41 (1979) 190), corrected for
+small samples as Akaike's (C. Hurvich & C.-L. Tsai, Biometrika 76 (1989) 297). A harmonic must lower
+the sum of squares by more than the noise of the data itself does, so white noise and the steps of
+an encoder add none or few.
 """
 
 from __future__ import annotations
@@ -199,5 +199,6 @@ def _best(variance: Array, count: int) -> int:
     room = count - parameters - 1.0
     with np.errstate(divide="ignore", invalid="ignore"):
         correction = np.where(room > 0.0, 2.0 * parameters * (parameters + 1.0) / room, np.inf)
-    criterion = count * np.log(variance) + 2.0 * parameters + correction
+    penalty = 2.0 * np.log(np.log(max(count, 3)))
+    criterion = count * np.log(variance) + penalty * parameters + correction
     return max(1, int(np.argmin(criterion)))

@@ -34,6 +34,8 @@ _STRAYS = 0.2
 _SEVERAL = 1.5
 # range of an angle that is no motion [rad], and over the noise of the samples
 _STILL, _STILL_NOISE = 0.02, 12.0
+# a frequency is that of exact samples within this share
+_SAME_FREQUENCY = 1e-3
 # least samples in a cycle
 _LEAST_SAMPLES = 8
 
@@ -70,6 +72,8 @@ def make_stroke(record: Record, frequency: float | None, center: bool) -> Made:
     Raises:
         ValueError: no period, another one than is given, or cycles that differ.
     """
+    if record.exact:
+        return _as_it_is(record, frequency, center)
     _require_motion(record)
     record, period, repeated = with_period(record, frequency)
     step = float(np.median(np.diff(record.time)))
@@ -109,6 +113,23 @@ def make_stroke(record: Record, frequency: float | None, center: bool) -> Made:
         if exact
         else (found.fits[0].residual_rms, found.fits[1].residual_rms),
     )
+
+
+def _as_it_is(record: Record, frequency: float | None, center: bool) -> Made:
+    """Exact samples of one period, as `SampledStroke.save` writes them."""
+    samples = (record.time, record.sweep, record.pitch)
+    stroke: FourierStroke | SampledStroke = SampledStroke(*(tuple(v.tolist()) for v in samples))
+    if frequency is not None and abs(frequency * stroke.period - 1.0) > _SAME_FREQUENCY:
+        raise ValueError(
+            f"the file holds exact samples of one period of {stroke.period:.6g} s "
+            f"({stroke.frequency:.6g} Hz), and {frequency:.6g} Hz was given"
+        )
+    notices = list(record.notices)
+    if center:
+        stroke, said = shift_of(stroke)
+        notices.append(said)
+    record = replace(record, notices=(*notices, *doubts_of(stroke)))
+    return Made(stroke, record, "", 1.0, (0, 0), (0.0, 0.0))
 
 
 def _require_motion(record: Record) -> None:

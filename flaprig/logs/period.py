@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flaprig.logs.harmonics import fit
+from flaprig.strokes.sampled import CLOSED_WITHIN
 
 Array = NDArray[np.float64]
 Waves = NDArray[np.complex128]
@@ -36,8 +37,12 @@ _LEAST_BACK = 0.02
 _BEYOND = 0.05
 # a rate below this share of the fastest is that of a reversal
 _SLOW = 0.1
-# rates at both ends differ by no more than this share of the largest
-_RATES = 0.5
+# samples that make a record fine enough for rates at its ends, over three
+_COARSE = 20
+# share of a record, as one over it, that gives the rates at its ends
+_ENDS = 100
+# rates at both ends differ by no more than this share of the fastest
+_RATES = 0.6
 # an end is closed, or one step short, within this share of a step
 _SNAP = 0.3
 # steps that a whole cycle may seem to lack at its end
@@ -117,9 +122,12 @@ def one_cycle(time: Array, signals: Sequence[Array]) -> float | None:
     length, step = float(time[-1] - time[0]), float(np.median(np.diff(time)))
     slopes, gaps, rooms, fast = [], [], [], []
     for signal in signals:
-        begin, end = _slope(time[:5], signal[:5]), _slope(time[-5:], signal[-5:])
+        few = max(2, time.size // _ENDS)
+        begin, end = _slope(time[:few], signal[:few]), _slope(time[-few:], signal[-few:])
         fastest = float(np.percentile(np.abs(np.gradient(signal, time)), 95.0))
-        if abs(begin - end) > max(_RATES * fastest, _LEAST_BACK / length):
+        # between coarse samples a rate may change as it likes
+        fine = time.size >= 3 * _COARSE
+        if fine and abs(begin - end) > max(_RATES * fastest, _LEAST_BACK / length):
             return None
         slopes.append(0.5 * (begin + end))
         gaps.append(float(signal[0] - signal[-1]))
@@ -129,10 +137,14 @@ def one_cycle(time: Array, signals: Sequence[Array]) -> float | None:
     square = float(np.dot(slopes, slopes))
     # the time that closes the gap at the rate of the ends; where both ends are at a reversal no
     # rate tells, and the last sample lies one step before the first as a rule
-    slow = all(abs(s) <= _SLOW * f for s, f in zip(slopes, fast, strict=True))
+    slow = not fine or all(abs(s) <= _SLOW * f for s, f in zip(slopes, fast, strict=True))
     late = step if slow else float(np.dot(slopes, gaps)) / square
     late = float(np.clip(late, -_BEYOND * length, _STEPS_BACK * step))
-    if any(abs(g - s * late) > r for g, s, r in zip(gaps, slopes, rooms, strict=True)):
+    # a cycle of coarse samples may be closed, too
+    if not fine and max(map(abs, gaps)) <= CLOSED_WITHIN:
+        late = 0.0
+    shifts = (s * late if fine else 0.0 for s in slopes)
+    if any(abs(g - s) > r for g, s, r in zip(gaps, shifts, rooms, strict=True)):
         return None
     usual = min((0.0, step), key=lambda each: abs(late - each))
     return length + (usual if abs(late - usual) <= _SNAP * step else late)

@@ -14,6 +14,7 @@ from flaprig.logs import angles, clock
 from flaprig.logs.counts import JointCounts, PositionCounts
 from flaprig.logs.numbers import lines_named
 from flaprig.logs.units import ANGLE_UNITS, Column, Quantity, column_of
+from flaprig.strokes.sampled import EXACT
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -80,6 +81,12 @@ class Record:
     columns: dict[str, Array]
     notices: tuple[str, ...]
 
+    @property
+    def exact(self) -> bool:
+        """Whether the file says that its samples are exact and cover one period."""
+        flags = self.columns.get(EXACT)
+        return flags is not None and bool(np.all(flags == 1.0))
+
     def part(self, rows: slice | Index | NDArray[np.bool_]) -> Record:
         """Some of the rows."""
         return Record(
@@ -123,6 +130,8 @@ def record_of(table: Rows, counts: PositionCounts) -> Record:
         joints.append(angle)
     notices += _deviations(columns, table, usable)
     raw = Record(time, joints[0], joints[1], lines, _numeric(others), tuple(notices))
+    if raw.exact:
+        return raw
     pair = (columns[places[Quantity.SWEEP]], columns[places[Quantity.PITCH]])
     return _cleaned(_followed(raw), time_column.name, pair, counts)
 

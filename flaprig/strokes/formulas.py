@@ -55,9 +55,10 @@ def _from_json(text: str) -> SunTangStroke | FourierStroke:
     if not isinstance(document, dict) or "stroke" not in document:
         held = ", ".join(map(str, document)) if isinstance(document, dict) else "a list"
         raise ValueError(
-            '"stroke" must be one of sun_tang, fourier beside "parameters" in a JSON of a stroke, '
-            f"and this one holds {held[:80] or 'nothing'}; a servo's log is read as a table with "
-            "the columns time_s, sweep_deg (or _rad, _count) and pitch_deg"
+            f'"stroke" must be one of {", ".join(FORMULAS)}, got None: a JSON of a stroke holds '
+            f'"stroke" and "parameters", and this one holds {held[:80] or "nothing"}; a servo\'s '
+            "log is read as a table with the columns time_s, sweep_deg (or _rad, _count) and "
+            "pitch_deg alike"
         )
     name, values = document["stroke"], document.get("parameters")
     kind = FORMULAS.get(name) if isinstance(name, str) else None

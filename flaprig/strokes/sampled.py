@@ -45,8 +45,10 @@ LOW_HARMONICS, COMPARED = 20, 4096
 MANY_TIMES = 3.0
 # least acceleration that is compared, over amplitude times frequency squared
 LEAST_SHARE = 1e-3
+# column that says that samples are exact and cover one period: a log is read with more doubt
+EXACT = "exact"
 # first line of a file of samples
-HEADER = "time_s,sweep_rad,pitch_rad"
+HEADER = f"time_s,sweep_rad,pitch_rad,{EXACT}"
 
 
 @dataclass(frozen=True)
@@ -161,9 +163,12 @@ class SampledStroke(PeriodicStroke):
         return tuple(found)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the samples as CSV, time_s,sweep_rad,pitch_rad, whole or not at all."""
+        """Write the samples as CSV, whole or not at all: time_s, sweep_rad, pitch_rad, exact.
+
+        The last column is 1 and says that no log is meant: such a file comes back bit for bit.
+        """
         rows = zip(self.time, self.sweep, self.pitch, strict=True)
-        lines = [HEADER, *(",".join(repr(value) for value in row) for row in rows)]
+        lines = [HEADER, *(",".join(repr(value) for value in row) + ",1" for row in rows)]
         write_whole(path, "\n".join(lines) + "\n")
 
     @cached_property

@@ -53,8 +53,8 @@ SUN = {"frequency": 0.2, "sweep_amplitude": 1.0, "pitch_amplitude": 0.5}
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("", "must be JSON or start with time_s"),
-        ("a,b\n1,2", "must be JSON or start with time_s"),
+        ("", "a log must have a line of names, got an empty file"),
+        ("a,b\n1,2", "columns missing: time_s; sweep_rad, sweep_deg or sweep_count"),
         ("{", "not valid JSON"),
         ('{"a":' * 100000, "nested so deeply|not valid JSON"),
         ("{}", '"stroke" must be one of sun_tang, fourier, got None'),
@@ -68,10 +68,10 @@ SUN = {"frequency": 0.2, "sweep_amplitude": 1.0, "pitch_amplitude": 0.5}
          "frequency must be a positive number"),
         (json.dumps({"stroke": "fourier", "parameters": {"frequency": 1, "sweep_cos": "abc",
                      "sweep_sin": [1], "pitch_cos": [1], "pitch_sin": {}}}), "sweep_cos must be"),
-        ("time_s,sweep_rad,pitch_rad\n", "time must be a list of 8 to"),
-        ("time_s,sweep_rad,pitch_rad\n0,1\n", "line 2 must be three numbers, got '0,1'"),
-        ("time_s,sweep_rad,pitch_rad\n0,1,2\n0,x,2\n", "line 3 must be three numbers"),
-        ("time_s,sweep_rad,pitch_rad\n" + "0,1,nan\n" * 9, r"pitch\[0\] must be a finite"),
+        ("time_s,sweep_rad,pitch_rad\n", "a log must have 8 to 2000000 rows, got 0"),
+        ("time_s,sweep_rad,pitch_rad\n0,1\n", "a log must have 8 to 2000000 rows, got 1"),
+        ("time_s,sweep_rad,pitch_rad\n0,1,2\n0,x,2\n", "a log must have 8 to 2000000 rows, got 2"),
+        ("time_s,sweep_rad,pitch_rad\n" + "0,1,nan\n" * 9, "line 2: pitch_rad must be a finite number, got 'nan'"),
     ],
 )
 def test_malformed_file_gives_one_sentence(text, sentence, tmp_path):
@@ -83,8 +83,8 @@ def test_malformed_file_gives_one_sentence(text, sentence, tmp_path):
 
 
 def test_binary_and_missing_files(tmp_path):
-    (tmp_path / "b").write_bytes(b"\xff\xfe\x00\x01")
-    with pytest.raises(ValueError, match="must be UTF-8 text"):
+    (tmp_path / "b").write_bytes(bytes(range(256)))
+    with pytest.raises(ValueError, match="this is no text; what can be read is a table"):
         strokes.load(tmp_path / "b")
     with pytest.raises(FileNotFoundError):
         strokes.load(tmp_path / "none")
