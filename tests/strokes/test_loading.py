@@ -71,7 +71,8 @@ SUN = {"frequency": 0.2, "sweep_amplitude": 1.0, "pitch_amplitude": 0.5}
         ("time_s,sweep_rad,pitch_rad\n", "a log must have 8 to 2000000 rows, got 0"),
         ("time_s,sweep_rad,pitch_rad\n0,1\n", "a log must have 8 to 2000000 rows, got 1"),
         ("time_s,sweep_rad,pitch_rad\n0,1,2\n0,x,2\n", "a log must have 8 to 2000000 rows, got 2"),
-        ("time_s,sweep_rad,pitch_rad\n" + "0,1,nan\n" * 9, "line 2: pitch_rad must be a finite number, got 'nan'"),
+        ("time_s,sweep_rad,pitch_rad\n" + "0,1,nan\n" * 9,
+         "line 2: pitch_rad must be a finite number, got 'nan'"),
     ],
 )
 def test_malformed_file_gives_one_sentence(text, sentence, tmp_path):
