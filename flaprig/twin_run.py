@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flaprig.aero.histories import Histories
+from flaprig.aero.loads import side_force, sweep_direction, upward
 from flaprig.aero.result import Result, averaged_cycles
-from flaprig.aero.rigid_motion import wing_axes
 from flaprig.aero.simulate import reference_force
 from flaprig.energy import EnergyBalance, solid_energy
 from flaprig.files import write_table
@@ -200,17 +200,20 @@ def _histories(model: mujoco.MjModel, motion: Motion, log: StepLog, aero: Array)
     angle, rate = coordinates(model)
     sweep, pitch = log.qpos[:-1, angle].T
     sweep_rate, pitch_rate = log.qvel[:-1, rate].T
-    up = wing_axes(sweep, pitch)[:, 2]
+    step = model.opt.timestep
+    acceleration = np.diff(log.qvel[:, rate[0]]) / step
+    # as of prescribed motion: the sensor's own drag is against the motion through the fluid
+    drag = sweep_direction(sweep_rate, acceleration, step) * side_force(aero[:, :3], pitch)
     return Histories(
         time=motion.time[:-1],
         sweep=sweep,
         pitch=pitch,
         sweep_rate=sweep_rate,
         pitch_rate=pitch_rate,
-        lift=aero[:, 6],
-        drag=aero[:, 7],
+        lift=upward(aero[:, :3], pitch),
+        drag=drag,
         # torque about z; the pitch axis is -span
-        sweep_torque=np.einsum("nj,nj->n", up, aero[:, 3:6]),
+        sweep_torque=upward(aero[:, 3:6], pitch),
         pitch_torque=-aero[:, 4],
         power=aero[:, 8],
     )

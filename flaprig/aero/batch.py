@@ -73,8 +73,8 @@ def _run(
     settings = model.attributes(wing, fluid, first.frequency, first.sweep_amplitude)
     loads = batch_loads(model, settings, rigid, 1.0 / (steps * first.frequency), threads)
     return [
-        result_of(wing, stroke, fluid, motion, moved, load, cycles)
-        for stroke, motion, moved, load in zip(strokes, motions, rigid, loads, strict=True)
+        result_of(wing, stroke, fluid, motion, load, cycles)
+        for stroke, motion, load in zip(strokes, motions, loads, strict=True)
     ]
 
 

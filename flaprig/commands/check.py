@@ -98,6 +98,7 @@ def run(args: Check, folder: Folder) -> int:
         summary |= {"scale": scaled[0].summary() | scaled[1].summary()}
     summary |= spent
     _write(folder, case, report, summary)
+    summary = folder.write_summary(summary)
     if args.json:
         print(as_json(summary))
     else:
@@ -185,7 +186,7 @@ def _write(folder: Folder, case: Case, report: FeasibilityReport, summary: dict[
     if not folder:
         return
     folder.write("report.csv", report.save)
-    folder.write_text("summary.json", as_json(summary) + "\n")
+    folder.write_summary(summary)
     if report.projection.changed:
         folder.write("nearest.csv", report.projection.stroke.save)
     title = f"Torque and speed of the servos, {case.title}"
@@ -203,5 +204,4 @@ def _tell(
     if scaled:
         print_scale(console, *scaled)
     if folder:
-        names = ", ".join(path.name for path in folder.written)
-        console.print(f"Written to {folder.path}: {names}", highlight=False, markup=False)
+        console.print(folder.sentences(), highlight=False, markup=False)

@@ -37,7 +37,7 @@ def write_histories(
     """histories.csv, histories.npz and summary.json."""
     folder.write("histories.csv", save)
     folder.write("histories.npz", save)
-    folder.write_text("summary.json", as_json(summary) + "\n")
+    folder.write_summary(summary)
 
 
 @dataclass(frozen=True)
@@ -112,12 +112,12 @@ def write_wake(folder: Folder, case: Case) -> None:
 
 
 def tell(as_object: bool, title: str, summary: dict[str, Any], folder: Folder) -> None:
-    """On stdout: one JSON object and nothing else, or a table and the files."""
+    """Complete summary.json; print one JSON object and nothing else, or a table and the files."""
+    summary = folder.write_summary(summary)
     if as_object:
         print(as_json(summary))
         return
     console = Console()
     print_run(console, title, summary)
     if folder:
-        names = ", ".join(path.name for path in folder.written)
-        console.print(f"Written to {folder.path}: {names}", highlight=False, markup=False)
+        console.print(folder.sentences(), highlight=False, markup=False)
