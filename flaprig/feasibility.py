@@ -18,14 +18,14 @@ from flaprig import _checks as check
 from flaprig.aero.air import Progress
 from flaprig.aero.result import Result
 from flaprig.aero.simulate import reference_force, simulate
-from flaprig.files import written_whole
+from flaprig.files import check_ending, plain, written_whole
 from flaprig.limits import Limits, Projection, project
 from flaprig.limits.peaks import check_limits
 from flaprig.motion_verdicts import motion_verdicts
 from flaprig.rig import Axis, Rig
 from flaprig.servo_verdicts import Work, servo_verdicts
 from flaprig.set_points import own_limits
-from flaprig.strokes.stroke import Stroke
+from flaprig.strokes.stroke import Stroke, check_stroke
 from flaprig.twin import TIME_STEP, Twin, TwinRun
 from flaprig.verdict import Tolerances, Verdict, narrowest
 
@@ -96,8 +96,11 @@ class FeasibilityReport:
         return servo_work(self.run, self.stroke, Axis(joint))
 
     def summary(self) -> dict[str, Any]:
-        """The whole verdict, coefficients, and every verdict by its key with unit."""
-        return {
+        """The whole verdict, coefficients, and every verdict by its key with unit.
+
+        What is not finite is None, as JSON has it: the spread of one cycle, an endless margin.
+        """
+        summary = {
             "feasible": self.feasible,
             "broken": [verdict.key for verdict in self.broken],
             "worst": self.worst.key,
@@ -111,6 +114,7 @@ class FeasibilityReport:
             "nearest_stroke_rms_rad": self.projection.distance_rms,
             "verdicts": {verdict.key: verdict.summary() for verdict in self.verdicts},
         }
+        return {key: plain(value) for key, value in summary.items()}
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the verdicts as CSV, whole or not at all.
@@ -119,8 +123,7 @@ class FeasibilityReport:
             ValueError: an ending other than .csv.
             OSError: the folder does not exist or cannot be written.
         """
-        if os.path.splitext(path)[1] != ".csv":
-            raise check.fail("FeasibilityReport.save", "path", "one that ends in .csv", str(path))
+        check_ending("FeasibilityReport.save", path, ".csv")
         rows = [HEADER, *map(_row, self.verdicts)]
         with written_whole(path) as draft:
             draft.write_text("\n".join(rows) + "\n", encoding="utf-8")
@@ -155,7 +158,11 @@ def check_feasibility(
         FloatingPointError: MuJoCo or the wake gave up.
         ImportError: the plugin library is missing or does not fit MuJoCo.
     """
-    owner, twin = "check_feasibility", Twin(rig, time_step, feedforward)
+    owner = "check_feasibility"
+    check.instance(owner, "rig", rig, Rig, "a Rig, as Rig.load() gives it")
+    check_stroke(owner, stroke)
+    check.callback(owner, "progress", progress)
+    twin = Twin(rig, time_step, feedforward)
     cycles = check.whole(owner, "cycles", cycles, 2, 1000)
     tolerances = Tolerances() if tolerances is None else tolerances
     if not isinstance(tolerances, Tolerances):

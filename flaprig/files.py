@@ -110,7 +110,7 @@ class FolderLock:
         try:
             fcntl.flock(self._number, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            os.close(self._number)
+            self.release()
             sentence = f"--out must be a folder that no other run writes into, got {folder}"
             raise ValueError(f"{sentence}: one does at this moment") from None
         except OSError:
@@ -122,6 +122,11 @@ class FolderLock:
         if self._number >= 0:
             os.close(self._number)
         self._number = -1
+
+    def __del__(self) -> None:
+        # a run that nobody holds any more is over; not begun where the constructor has failed
+        if "_number" in vars(self):
+            self.release()
 
 
 @contextmanager

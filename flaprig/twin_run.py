@@ -15,7 +15,7 @@ from flaprig.aero.loads import side_force, sweep_direction, upward
 from flaprig.aero.result import Result, averaged_cycles
 from flaprig.aero.simulate import reference_force
 from flaprig.energy import EnergyBalance, solid_energy
-from flaprig.files import write_table
+from flaprig.files import plain, write_table
 from flaprig.limits import JointProjection, Projection
 from flaprig.motor_histories import MotorHistories
 from flaprig.motor_record import motor_histories
@@ -105,8 +105,11 @@ class TwinRun:
         }
         return self.result.histories.columns() | self.motors.columns() | wrenches
 
-    def summary(self) -> dict[str, float | list[int] | list[float]]:
-        """The result's summary, the servos' and the balance, with SI units in the names."""
+    def summary(self) -> dict[str, float | list[int] | list[float] | None]:
+        """The result's summary, the servos' and the balance, with SI units in the names.
+
+        What is not finite is None, as JSON has it.
+        """
         servos: dict[str, float | list[int] | list[float]] = {}
         for axis in Axis:
             servos |= self._servo_summary(axis)
@@ -117,7 +120,8 @@ class TwinRun:
             "time_step_s": self.time_step,
             "joined_at_s": self.joined_at,
         }
-        return {**self.result.summary(), **servos, **balance}
+        whole = {**self.result.summary(), **servos, **balance}
+        return {name: plain(value) for name, value in whole.items()}
 
     def _servo_summary(self, axis: Axis) -> dict[str, float]:
         error = self.tracking_error(axis)

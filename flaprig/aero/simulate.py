@@ -13,7 +13,7 @@ from flaprig.aero.models import UVLM, AirModel
 from flaprig.aero.result import Result, averaged_cycles
 from flaprig.aero.rigid_motion import RigidMotion
 from flaprig.fluid import WATER, Fluid
-from flaprig.strokes.stroke import Motion, Stroke
+from flaprig.strokes.stroke import Motion, Stroke, check_stroke
 from flaprig.wing import Wing
 
 Array = NDArray[np.float64]
@@ -53,18 +53,34 @@ def simulate(
         progress: called with the fraction done.
 
     Raises:
-        ValueError: a value out of range.
+        ValueError: an argument of the wrong type or out of its range.
         FloatingPointError: the loads are not finite; says from which time on.
     """
+    owner = "simulate"
     model = UVLM() if model is None else model
-    check.whole("simulate", "cycles", cycles, 1, 1000)
-    check.whole("simulate", "substeps", substeps, 1, 1000)
+    check_setup(owner, wing, model, fluid)
+    check_stroke(owner, stroke)
+    cycles = check.whole(owner, "cycles", cycles, 1, 1000)
+    substeps = check.whole(owner, "substeps", substeps, 1, 1000)
+    check.callback(owner, "progress", progress)
     steps = model.steps_per_cycle * substeps
     motion = prescribed(stroke, cycles, steps)
     rigid = RigidMotion.from_stroke(motion)
     air = Air(wing, fluid, model, stroke.frequency, stroke.sweep_amplitude)
     loads = air.run(rigid, 1.0 / (steps * stroke.frequency), progress)
     return result_of(wing, stroke, fluid, motion, loads, cycles)
+
+
+def check_setup(owner: str, wing: Wing, model: AirModel, fluid: Fluid) -> None:
+    """Refuse what is no wing, no model of the fluid or no fluid.
+
+    Raises:
+        ValueError: one sentence that names the argument.
+    """
+    check.instance(owner, "wing", wing, Wing, "a Wing, for instance RIG_WING")
+    words = "a model of the fluid, for instance UVLM() or QuasiSteady()"
+    check.instance(owner, "model", model, AirModel, words)
+    check.instance(owner, "fluid", fluid, Fluid, "a Fluid, for instance WATER")
 
 
 def prescribed(stroke: Stroke, cycles: int, steps: int) -> Motion:

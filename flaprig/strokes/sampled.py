@@ -132,7 +132,7 @@ class SampledStroke(PeriodicStroke):
         """Write the samples as CSV, time_s,sweep_rad,pitch_rad, whole or not at all."""
         rows = zip(self.time, self.sweep, self.pitch, strict=True)
         lines = [HEADER, *(",".join(repr(value) for value in row) for row in rows)]
-        write_whole(path, "\n".join(lines) + "\n")
+        write_whole(path, "\n".join(lines) + "\n", "CSV")
 
     @cached_property
     def _splines(self) -> tuple[BSpline, BSpline]:
