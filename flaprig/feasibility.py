@@ -18,7 +18,7 @@ from flaprig import _checks as check
 from flaprig.aero.air import Progress
 from flaprig.aero.result import Result
 from flaprig.aero.simulate import reference_force, simulate
-from flaprig.files import check_ending, plain, written_whole
+from flaprig.files import plain, written_whole
 from flaprig.limits import Limits, Projection, project
 from flaprig.limits.peaks import check_limits
 from flaprig.motion_verdicts import motion_verdicts
@@ -123,7 +123,8 @@ class FeasibilityReport:
             ValueError: an ending other than .csv.
             OSError: the folder does not exist or cannot be written.
         """
-        check_ending("FeasibilityReport.save", path, ".csv")
+        if os.path.splitext(path)[1] != ".csv":
+            raise check.fail("FeasibilityReport.save", "path", "one that ends in .csv", str(path))
         rows = [HEADER, *map(_row, self.verdicts)]
         with written_whole(path) as draft:
             draft.write_text("\n".join(rows) + "\n", encoding="utf-8")
@@ -175,14 +176,22 @@ def check_feasibility(
         rig.wing, stroke, rig.model, rig.fluid, cycles, progress=_part(progress, _TWIN_SHARE)
     )
     verdicts = motion_verdicts(stroke, projection, limits, tolerances)
-    for axis in Axis:
-        motor, allowed = getattr(rig.motors, axis), getattr(limits, axis)
-        work = servo_work(run, stroke, axis)
-        verdicts += servo_verdicts(axis.value, motor, allowed, work, tolerances)
+    verdicts += _servo_verdicts(rig, stroke, limits, run, tolerances)
     verdicts += _cost(run.result, prescribed, tolerances)
     # joint by joint, the whole rig last
     verdicts.sort(key=lambda verdict: [*Axis, ""].index(verdict.joint))
     return FeasibilityReport(rig, stroke, limits, projection, run, prescribed, tuple(verdicts))
+
+
+def _servo_verdicts(
+    rig: Rig, stroke: Stroke, limits: Limits, run: TwinRun, tolerances: Tolerances
+) -> list[Verdict]:
+    found = []
+    for axis in Axis:
+        motor, allowed = getattr(rig.motors, axis), getattr(limits, axis)
+        work = servo_work(run, stroke, axis)
+        found += servo_verdicts(axis.value, motor, allowed, work, tolerances)
+    return found
 
 
 def servo_work(run: TwinRun, stroke: Stroke, axis: Axis) -> Work:

@@ -48,7 +48,7 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     except OSError as error:
         if error.filename is not None and Path(os.fsdecode(error.filename)) == draft:
             # nobody knows the draft's name
-            error.filename, error.filename2 = os.fspath(target), None
+            raise OSError(error.errno, error.strerror, os.fspath(target)) from None
         raise
     finally:
         draft.unlink(missing_ok=True)

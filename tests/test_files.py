@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import signal
+import stat
 import subprocess
 import sys
 from pathlib import Path
@@ -45,7 +46,7 @@ def test_draft_and_folder_are_on_the_disk_around_the_rename(
     sync, replace = os.fsync, Path.replace
 
     def synced(number: int) -> None:
-        steps.append("folder" if os.path.isdir(f"/proc/self/fd/{number}") else "file")
+        steps.append("folder" if stat.S_ISDIR(os.fstat(number).st_mode) else "file")
         sync(number)
 
     def replaced(self: Path, target: Path) -> Path:
@@ -84,6 +85,14 @@ def test_an_error_names_the_target_and_not_the_draft(tmp_path: Path, name: str) 
             save(target)
         assert Path(caught.value.filename).parent == target.parent
         assert Path(caught.value.filename).stem == "run" and ".part" not in str(caught.value)
+
+
+def test_a_target_that_is_a_folder_is_named(tmp_path: Path) -> None:
+    (tmp_path / "s.json").mkdir()
+    with pytest.raises(IsADirectoryError) as caught:
+        STROKE.save(tmp_path / "s.json")
+    assert str(caught.value).endswith(f"{str(tmp_path / 's.json')!r}")
+    assert [path.name for path in tmp_path.iterdir()] == ["s.json"]
 
 
 def test_drafts_of_killed_writers_are_swept_and_no_others(tmp_path: Path) -> None:
