@@ -160,7 +160,6 @@ def check_feasibility(
         ImportError: the plugin library is missing or does not fit MuJoCo.
     """
     owner = "check_feasibility"
-    check.instance(owner, "rig", rig, Rig, "a Rig, as Rig.load() gives it")
     check_stroke(owner, stroke)
     check.callback(owner, "progress", progress)
     twin = Twin(rig, time_step, feedforward)
