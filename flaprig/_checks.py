@@ -28,6 +28,18 @@ def fail(owner: str, name: str, allowed: str, value: Any) -> ValueError:
     return ValueError(f"{owner}: {name} must be {allowed}, got {reprlib.repr(value)}")
 
 
+def instance(owner: str, name: str, value: Any, kind: type, words: str) -> None:
+    """A value of a class or a protocol, described in words; the class itself is none."""
+    if isinstance(value, type) or not isinstance(value, kind):
+        raise fail(owner, name, words, value)
+
+
+def callback(owner: str, name: str, value: Any) -> None:
+    """A function to be called with one number, or None."""
+    if value is not None and (isinstance(value, type) or not callable(value)):
+        raise fail(owner, name, "a function of the fraction done, or None", value)
+
+
 def _real(value: Any) -> float:
     """The value as a float, or NaN when it is not one real number (a bool or a text is not)."""
     if isinstance(value, np.ndarray) and value.ndim == 0:

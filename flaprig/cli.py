@@ -6,35 +6,45 @@ Exit codes: 0 fine, 1 the run failed, 2 bad input, 130 stopped with Ctrl-C. `fla
 
 from __future__ import annotations
 
+import difflib
 import io
 import os
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import redirect_stderr
+from functools import partial, reduce
 from importlib.metadata import PackageNotFoundError, version
+from operator import or_
 from typing import Annotated, Any
 
-import tyro
 from tyro.conf import FlagCreatePairsOff, OmitArgPrefixes, OmitSubcommandPrefixes, subcommand
 
 from flaprig.commands import bench, check, demo, export, reproduce, simulate, twin, validate, view
+from flaprig.commands.arguments import parse
+from flaprig.commands.failures import (
+    BAD_INPUT,
+    EXPECTED,
+    FAILED,
+    NO_ANSWER,
+    STOPPED,
+    exit_code,
+    sentence,
+)
 from flaprig.report.folder import Folder
 
-FAILED, BAD_INPUT, STOPPED = 1, 2, 130
-# a failure where 1 is an answer
-NO_ANSWER = 3
+__all__ = ["BAD_INPUT", "FAILED", "NO_ANSWER", "STOPPED", "main"]
 
-Command = (
-    Annotated[simulate.Simulate, subcommand("simulate")]
-    | Annotated[twin.Twin, subcommand("twin")]
-    | Annotated[check.Check, subcommand("check")]
-    | Annotated[export.Export, subcommand("export")]
-    | Annotated[reproduce.Reproduce, subcommand("reproduce")]
-    | Annotated[validate.Validate, subcommand("validate")]
-    | Annotated[bench.Bench, subcommand("bench")]
-    | Annotated[view.View, subcommand("view")]
-    | Annotated[demo.Demo, subcommand("demo")]
-)
+# the commands by name, in the order of the help
+_KIND: dict[str, type] = {
+    "simulate": simulate.Simulate,
+    "twin": twin.Twin,
+    "check": check.Check,
+    "export": export.Export,
+    "reproduce": reproduce.Reproduce,
+    "validate": validate.Validate,
+    "bench": bench.Bench,
+    "view": view.View,
+    "demo": demo.Demo,
+}
 _RUN: dict[type, Callable[[Any, Folder], int | None]] = {
     simulate.Simulate: simulate.run,
     twin.Twin: twin.run,
@@ -53,6 +63,7 @@ _ANSWERS = (check.Check, validate.Validate, validate.OneCase)
 # commands whose parts have options of their own
 _PARSE = {"validate": validate.parse, "bench": bench.parse}
 _CONFIG = (OmitArgPrefixes, OmitSubcommandPrefixes, FlagCreatePairsOff)
+_CLOSED = "standard output is closed"
 _ABOUT = "The digital twin of a robotic flapping wing. Angles are in degrees, all else in SI units."
 
 
@@ -63,19 +74,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         argv: arguments without the program's name; those of the process when None.
     """
     words = list(sys.argv[1:] if argv is None else argv)
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            # a terminal of few letters gets a question mark for ±
-            stream.reconfigure(errors="replace")
-    if words == ["--version"]:
-        print(_version())
-        return 0
+    unheard = _open_streams()
+    folder = Folder(None)
     try:
+        if words == ["--version"]:
+            print(_version())
+            return _say(_CLOSED, BAD_INPUT) if unheard else 0
         args = _parse(words)
-    except ValueError as error:
-        return _say(str(error), BAD_INPUT)
-    folder = Folder(getattr(args, "out", None))
-    try:
+        if unheard and not _leaves_files(args):
+            return _say(f"{_CLOSED}; --out DIR would keep the result", BAD_INPUT)
+        folder.path = getattr(args, "out", None)
         return _run(args, folder)
     except KeyboardInterrupt:
         return _say(f"stopped; {_kept(folder)}", STOPPED)
@@ -83,6 +91,34 @@ def main(argv: Sequence[str] | None = None) -> int:
         # the reader went away: not even the flush at exit may complain
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return FAILED
+    except SystemExit:
+        # help was printed
+        if unheard:
+            return _say(_CLOSED, BAD_INPUT)
+        raise
+    except ValueError as error:
+        return _say(str(error), BAD_INPUT)
+    finally:
+        folder.release()
+
+
+def _open_streams() -> bool:
+    """Make standard output and error usable; whether the output was closed, as for a daemon."""
+    unheard = sys.stdout is None
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+        elif isinstance(stream, io.TextIOWrapper):
+            # a terminal of few letters gets a question mark for ±
+            stream.reconfigure(errors="replace")
+    return unheard
+
+
+def _leaves_files(args: Any) -> bool:
+    """Whether a command leaves its result in files, and not on standard output alone."""
+    wanted = getattr(args, "out", None), getattr(args, "all", False)
+    return any(wanted) or isinstance(args, view.View)
 
 
 def _run(args: Any, folder: Folder) -> int:
@@ -92,10 +128,8 @@ def _run(args: Any, folder: Folder) -> int:
         sys.stdout.flush()
     except BrokenPipeError:
         raise
-    except (ValueError, OSError) as error:
-        return _say(_sentence(error), BAD_INPUT)
-    except (ArithmeticError, ImportError, RuntimeError) as error:
-        return _say(_sentence(error), NO_ANSWER if isinstance(args, _ANSWERS) else FAILED)
+    except EXPECTED as error:
+        return _say(sentence(error), exit_code(error, isinstance(args, _ANSWERS)))
     return code or 0
 
 
@@ -103,46 +137,21 @@ def _parse(argv: list[str]) -> Any:
     """The arguments of one subcommand; parts of some commands have options of their own.
 
     Raises:
-        ValueError: what tyro says about wrong arguments, as one sentence.
+        ValueError: wrong arguments, as one sentence.
         SystemExit: help was asked for and has been printed.
     """
-    if argv and argv[0] in _PARSE:
-        return _PARSE[argv[0]](argv[1:], _ask)
-    return _ask(Command, "flaprig", argv, _ABOUT)
-
-
-def _ask(kind: Any, program: str, argv: list[str], about: str | None = None) -> Any:
-    complaint = io.StringIO()
-    try:
-        with redirect_stderr(complaint):
-            return tyro.cli(kind, prog=program, description=about, args=argv, config=_CONFIG)
-    except SystemExit as stop:
-        if stop.code in (0, None):
-            raise
-        words = _first_paragraph(complaint.getvalue()).rstrip(".")
-        raise ValueError(f"{words} (flaprig --help says what is possible)") from None
-
-
-def _first_paragraph(box: str) -> str:
-    """The words of tyro's error box, without frame, title and advice."""
-    lines = [line.strip(" │") for line in box.splitlines()]
-    blocks: list[list[str]] = [[]]
-    for line in lines:
-        if line.startswith(("╭", "╰")) or (line and set(line) <= set("─-")):
-            blocks.append([])
-        elif line:
-            blocks[-1].append(line)
-    found = [" ".join(block) for block in blocks if block]
-    # with plain ASCII the title is a block of its own
-    title = 0 if box.startswith("╭") else 1
-    return found[title] if len(found) > title else " ".join(box.split())
-
-
-def _sentence(error: Exception) -> str:
-    if isinstance(error, OSError) and error.strerror:
-        where = f"{error.filename}: " if error.filename else ""
-        return f"{where}{error.strerror}"
-    return " ".join(str(error).split()) or type(error).__name__
+    name = argv[0] if argv else ""
+    if name in _PARSE:
+        return _PARSE[name](argv[1:], partial(parse, config=_CONFIG))
+    if name in _KIND:
+        return parse(_KIND[name], f"flaprig {name}", argv[1:], config=_CONFIG)
+    if name and not name.startswith("-"):
+        close = difflib.get_close_matches(name, _KIND, 2)
+        meant = f"perhaps you meant {' or '.join(close)}" if close else f"one of {', '.join(_KIND)}"
+        raise ValueError(f"there is no command {name}; {meant} (flaprig --help tells them)")
+    # nothing or an option: the help of all commands, or what is missing
+    commands = [Annotated[kind, subcommand(word)] for word, kind in _KIND.items()]
+    return parse(reduce(or_, commands), "flaprig", argv, _ABOUT, _CONFIG)
 
 
 def _kept(folder: Folder) -> str:
@@ -151,8 +160,8 @@ def _kept(folder: Folder) -> str:
     return f"complete in {folder.path}: {', '.join(path.name for path in folder.written)}"
 
 
-def _say(sentence: str, code: int) -> int:
-    print(f"flaprig: {sentence}", file=sys.stderr)
+def _say(words: str, code: int) -> int:
+    print(f"flaprig: {words}", file=sys.stderr)
     return code
 
 

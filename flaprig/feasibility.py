@@ -21,14 +21,14 @@ from flaprig.aero.air import Progress
 from flaprig.aero.result import Result
 from flaprig.aero.simulate import reference_force, simulate
 from flaprig.as_asked import asked_torques
-from flaprig.files import written_whole
+from flaprig.files import plain, written_whole
 from flaprig.limits import Limits, Projection, project
 from flaprig.limits.peaks import check_limits
 from flaprig.motion_verdicts import motion_verdicts
 from flaprig.rig import Axis, Rig
 from flaprig.servo_verdicts import Work, servo_verdicts
 from flaprig.set_points import own_limits
-from flaprig.strokes.stroke import Stroke
+from flaprig.strokes.stroke import Stroke, check_stroke
 from flaprig.twin import TIME_STEP, Twin, TwinRun
 from flaprig.verdict import Tolerances, Verdict, beside, narrowest
 
@@ -113,8 +113,11 @@ class FeasibilityReport:
         return servo_work(self.run, self.stroke, Axis(joint))
 
     def summary(self) -> dict[str, Any]:
-        """The whole verdict, coefficients, and every verdict by its key with unit."""
-        return {
+        """The whole verdict, coefficients, and every verdict by its key with unit.
+
+        What is not finite is None, as JSON has it: the spread of one cycle, an endless margin.
+        """
+        summary = {
             "feasible": self.feasible,
             "broken": [verdict.key for verdict in self.broken],
             "worst": self.worst.key,
@@ -130,6 +133,7 @@ class FeasibilityReport:
             "flown_pitch_amplitude_rad": self.run.flown_amplitude(Axis.PITCH),
             "verdicts": {verdict.key: verdict.summary() for verdict in self.verdicts},
         }
+        return {key: plain(value) for key, value in summary.items()}
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the verdicts as CSV, whole or not at all.
@@ -174,7 +178,10 @@ def check_feasibility(
         FloatingPointError: MuJoCo or the wake gave up.
         ImportError: the plugin library is missing or does not fit MuJoCo.
     """
-    owner, twin = "check_feasibility", Twin(rig, time_step, feedforward)
+    owner = "check_feasibility"
+    check_stroke(owner, stroke)
+    check.callback(owner, "progress", progress)
+    twin = Twin(rig, time_step, feedforward)
     cycles = check.whole(owner, "cycles", cycles, 2, 1000)
     tolerances = Tolerances() if tolerances is None else tolerances
     if not isinstance(tolerances, Tolerances):
@@ -190,6 +197,25 @@ def check_feasibility(
     # a stroke that the twin does not make is judged by what it would need
     made = projection.distance_max <= tolerances.resolution
     asked = {} if made else _asked_work(rig, stroke, prescribed, run)
+    verdicts += _servo_verdicts(rig, stroke, limits, run, tolerances, asked)
+    verdicts += _cost(run.result, prescribed, tolerances)
+    # joint by joint, the whole rig last
+    verdicts.sort(key=lambda verdict: [*Axis, ""].index(verdict.joint))
+    return FeasibilityReport(
+        rig, stroke, limits, projection, run, prescribed, tuple(verdicts), asked
+    )
+
+
+def _servo_verdicts(
+    rig: Rig,
+    stroke: Stroke,
+    limits: Limits,
+    run: TwinRun,
+    tolerances: Tolerances,
+    asked: dict[str, Work],
+) -> list[Verdict]:
+    """Verdicts on both servos: on what they did, or on what they would have to do as asked."""
+    verdicts: list[Verdict] = []
     for axis in Axis:
         motor, allowed = getattr(rig.motors, axis), getattr(limits, axis)
         work = servo_work(run, stroke, axis)
@@ -198,12 +224,7 @@ def check_feasibility(
             as_asked = servo_verdicts(axis.value, motor, allowed, asked[axis.value], tolerances)
             found = beside(as_asked, found)
         verdicts += found
-    verdicts += _cost(run.result, prescribed, tolerances)
-    # joint by joint, the whole rig last
-    verdicts.sort(key=lambda verdict: [*Axis, ""].index(verdict.joint))
-    return FeasibilityReport(
-        rig, stroke, limits, projection, run, prescribed, tuple(verdicts), asked
-    )
+    return verdicts
 
 
 def servo_work(run: TwinRun, stroke: Stroke, axis: Axis) -> Work:

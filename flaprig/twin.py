@@ -22,7 +22,7 @@ from flaprig.motor_record import aim_address
 from flaprig.rig import Axis, Rig, controls, coordinates
 from flaprig.servo_link import PERFECT, ServoLink
 from flaprig.set_points import Own, SetPoints, check_stops, own_limits, set_points
-from flaprig.strokes.stroke import Motion, Stroke
+from flaprig.strokes.stroke import Motion, Stroke, check_stroke
 from flaprig.twin_log import drive
 from flaprig.twin_run import TOLD, TwinRun, gather
 
@@ -183,8 +183,7 @@ class Twin:
 
 def _check_stroke(stroke: Stroke) -> None:
     owner = "Twin.run"
-    if not isinstance(stroke, Stroke):
-        raise check.fail(owner, "stroke", "a stroke, for instance a SunTangStroke", stroke)
+    check_stroke(owner, stroke)
     limits = (LEAST_FREQUENCY, MOST_FREQUENCY, "Hz")
     check.in_range(owner, "stroke.frequency", stroke.frequency, *limits)
     if not stroke.sweep_amplitude >= LEAST_AMPLITUDE:

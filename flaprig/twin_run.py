@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flaprig.aero.histories import Histories
+from flaprig.aero.loads import side_force, sweep_direction, upward
 from flaprig.aero.result import Result, averaged_cycles
-from flaprig.aero.rigid_motion import wing_axes
 from flaprig.aero.simulate import reference_force
 from flaprig.energy import EnergyBalance, solid_energy
-from flaprig.files import write_table
+from flaprig.files import plain, write_table
 from flaprig.limits import JointProjection, Projection
 from flaprig.limits.projection import in_words
 from flaprig.motor_histories import MotorHistories
@@ -149,8 +149,11 @@ class TwinRun:
         }
         return self.result.histories.columns() | self.motors.columns() | wrenches
 
-    def summary(self) -> dict[str, float | list[int] | list[float]]:
-        """The result's summary, the servos' and the balance, with SI units in the names."""
+    def summary(self) -> dict[str, float | list[int] | list[float] | None]:
+        """The result's summary, the servos' and the balance, with SI units in the names.
+
+        What is not finite is None, as JSON has it.
+        """
         servos: dict[str, float | list[int] | list[float]] = {}
         for axis in Axis:
             servos |= self._servo_summary(axis)
@@ -168,7 +171,8 @@ class TwinRun:
             "flown_cl": self.result.cl * scale,
             "flown_cd": self.result.cd * scale,
         }
-        return {**self.result.summary(), **flown, **servos, **balance}
+        whole = {**self.result.summary(), **flown, **servos, **balance}
+        return {name: plain(value) for name, value in whole.items()}
 
     def _servo_summary(self, axis: Axis) -> dict[str, float]:
         error = self.tracking_error(axis)
@@ -254,17 +258,20 @@ def _histories(model: mujoco.MjModel, motion: Motion, log: StepLog, aero: Array)
     angle, rate = coordinates(model)
     sweep, pitch = log.qpos[:-1, angle].T
     sweep_rate, pitch_rate = log.qvel[:-1, rate].T
-    up = wing_axes(sweep, pitch)[:, 2]
+    step = model.opt.timestep
+    acceleration = np.diff(log.qvel[:, rate[0]]) / step
+    # as of prescribed motion: the sensor's own drag is against the motion through the fluid
+    drag = sweep_direction(sweep_rate, acceleration, step) * side_force(aero[:, :3], pitch)
     return Histories(
         time=motion.time[:-1],
         sweep=sweep,
         pitch=pitch,
         sweep_rate=sweep_rate,
         pitch_rate=pitch_rate,
-        lift=aero[:, 6],
-        drag=aero[:, 7],
+        lift=upward(aero[:, :3], pitch),
+        drag=drag,
         # torque about z; the pitch axis is -span
-        sweep_torque=np.einsum("nj,nj->n", up, aero[:, 3:6]),
+        sweep_torque=upward(aero[:, 3:6], pitch),
         pitch_torque=-aero[:, 4],
         power=aero[:, 8],
     )

@@ -129,9 +129,7 @@ class Wing:
         root = check.in_range(owner, "root_offset", root_offset, 0.0, MOST_LENGTH, "m")
         axis = check.in_range(owner, "pitch_axis", pitch_axis, 0.0, 1.0, "chords")
         x, chord = planform.beta(*planform.checked_radii(owner, r1, r2))
-        return cls.from_table(
-            root + span * x, mean_chord * chord, None, axis, thickness, density
-        )
+        return cls.from_table(root + span * x, mean_chord * chord, None, axis, thickness, density)
 
     @classmethod
     def from_table(

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from flaprig import cli
@@ -134,6 +135,143 @@ def test_reader_that_goes_away() -> None:
         done = subprocess.run(command, stdout=closed, stderr=subprocess.PIPE, cwd=ROOT, check=False)
     assert done.returncode == 1
     assert done.stderr == b""
+
+
+# interrupts the program where it begins to load a module, and runs it
+INTERRUPT = """
+import os, signal, sys
+module = sys.argv[1]
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == module:
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Finder())
+# a shell without job control starts programs deaf to it
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from flaprig.__main__ import main
+sys.argv = ["flaprig", "simulate"]
+sys.exit(main())
+"""
+
+
+@pytest.mark.parametrize("module", ["flaprig.cli", "numpy", "rich.console", "tyro", "scipy"])
+def test_ctrl_c_while_loading_is_one_line(module: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPT, module], capture_output=True, cwd=ROOT, check=False
+    )
+    assert done.returncode == 130
+    assert done.stderr == b"flaprig: stopped; nothing was written\n" and not done.stdout
+
+
+def test_the_installed_command_is_the_one_that_hears_ctrl_c() -> None:
+    import tomllib
+
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert project["scripts"] == {"flaprig": "flaprig.__main__:main"}
+
+
+@pytest.mark.parametrize(("words", "code"), [(QUICK, 1), (["check", "--cycles", "2"], 3)])
+@pytest.mark.parametrize("words_of_it", ["Unable to allocate 4.00 EiB", ""])
+def test_too_little_memory_is_one_line(
+    words: list[str],
+    code: int,
+    words_of_it: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def fails(*_: object, **__: object) -> None:
+        if words_of_it:
+            np.empty(2**59)
+        raise MemoryError
+
+    monkeypatch.setattr(simulate.flaprig, "simulate", fails)
+    monkeypatch.setattr("flaprig.feasibility.check_feasibility", fails)
+    assert cli.main(words) == code
+    out, err = capsys.readouterr()
+    assert not out and err.count("\n") == 1
+    assert err.startswith("flaprig: the memory is too small for this run") and words_of_it in err
+
+
+def shell(line: str) -> subprocess.CompletedProcess[str]:
+    """A line of the shell with `flaprig` in it."""
+    line = line.replace("flaprig", f"{sys.executable} -m flaprig", 1)
+    return subprocess.run(["bash", "-c", line], capture_output=True, text=True, cwd=ROOT)
+
+
+@pytest.mark.parametrize("words", [" ".join([*QUICK, "--json"]), "--help", "--version", "validate"])
+def test_closed_output_is_one_line(words: str) -> None:
+    """Nothing is computed whose result nobody could see."""
+    done = shell(f"flaprig {words} >&-")
+    assert done.returncode == 2
+    assert done.stderr.startswith("flaprig: standard output is closed")
+    assert done.stderr.count("\n") == 1
+
+
+def test_closed_output_does_not_matter_to_files(tmp_path: Path) -> None:
+    done = shell(f"flaprig {' '.join(QUICK)} --out {tmp_path} >&- <&-")
+    assert done.returncode == 0 and not done.stderr
+    assert json.loads((tmp_path / "summary.json").read_text())["cl"] > 2.0
+    with np.load(tmp_path / "histories.npz") as data:
+        assert np.isfinite(data["lift_N"]).all()
+
+
+def test_closed_error_stream_puts_no_error_on_the_output() -> None:
+    done = shell("flaprig simulate --cycles 0 2>&-")
+    assert done.returncode == 2 and not done.stdout
+    assert shell("flaprig simulate --cycles 0 2>&- >&-").returncode == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "said", "page"),
+    [
+        (["simulat"], "perhaps you meant simulate", "flaprig --help"),
+        (["chek", "--json"], "perhaps you meant check", "flaprig --help"),
+        (["twin", "--time-stp", "3"], "perhaps you meant --time-step", "flaprig twin --help"),
+        (["check", "--rms-trackin", "2"], "--rms-tracking", "flaprig check --help"),
+        (
+            ["validate", "wagner", "--chordwis", "2"],
+            "--chordwise",
+            "flaprig validate wagner --help",
+        ),
+        (["bench", "--jsn"], "perhaps you meant --json", "flaprig bench --help"),
+        (["export", "--intervall", "1"], "perhaps you meant --interval", "flaprig export --help"),
+        (["simulate", "--speed", "3"], "options: --speed, 3 (", "flaprig simulate --help"),
+    ],
+)
+@pytest.mark.parametrize("encoding", ["ascii", "utf-8"])
+def test_a_slip_of_the_keyboard_is_helped(
+    words: list[str],
+    said: str,
+    page: str,
+    encoding: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv("PYTHONIOENCODING", encoding)
+    assert cli.main(words) == 2
+    err = capsys.readouterr().err
+    assert said in err and f"({page} " in err and err.count("\n") == 1
+
+
+def test_out_of_two_runs_holds_the_second_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The run's number is in every file with room for it; the first run's files are gone."""
+    quick = [*QUICK, "--out", str(tmp_path), "--json"]
+    assert cli.main(["export", "--cycles", "1", "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "trajectory.csv").is_file()
+    found = []
+    for _ in range(2):
+        capsys.readouterr()
+        assert cli.main(quick) == 0
+        found.append(json.loads(capsys.readouterr().out)["run_id"])
+    assert found[0] != found[1]
+    assert {path.name for path in tmp_path.iterdir()} == {
+        *("histories.csv", "histories.npz", "summary.json", "forces.png"),
+    }
+    with np.load(tmp_path / "histories.npz") as data:
+        assert json.loads(str(data["summary"]))["run_id"] == found[1]
+    assert found[1].encode() in (tmp_path / "forces.png").read_bytes()
 
 
 def test_version(capsys: pytest.CaptureFixture[str]) -> None:

@@ -24,7 +24,6 @@ from flaprig.aero.simulate import reference_force
 from flaprig.feasibility import FeasibilityReport
 from flaprig.limits import PAPER_KINEMATICS, SINUSOID, rig_limits
 from flaprig.motors import RIG_MOTORS
-from flaprig.report.numbers import plain
 
 RIG = Rig.load().with_(model=QuasiSteady())
 # amplitudes of the paper [rad]
@@ -103,7 +102,7 @@ def test_an_acceleration_that_jumps_is_forgiven_within_one_count() -> None:
     broken = {verdict.key for verdict in strict.broken}
     assert broken == {"pitch_jerk_rad_per_s3", "pitch_nearest_motion_rad"}
     assert strict.verdict("pitch_jerk_rad_per_s3").value == math.inf
-    assert plain(strict.summary())["verdicts"]["pitch_jerk_rad_per_s3"]["value"] is None
+    assert strict.summary()["verdicts"]["pitch_jerk_rad_per_s3"]["value"] is None
 
 
 def test_too_fast_is_named_limit_by_limit() -> None:
@@ -199,11 +198,19 @@ def test_lattice_judges_as_the_quasi_steady_model() -> None:
 
 
 def test_summary_is_ready_for_json_and_names_units() -> None:
-    summary = json.loads(json.dumps(plain(report().summary())))
+    summary = json.loads(json.dumps(report().summary(), allow_nan=False))
+    # one averaged cycle has no spread
+    assert summary["cl_spread"] is None
     assert summary["feasible"] is True and summary["broken"] == []
     assert set(summary["verdicts"]["sweep_peak_current_A"]) == {"value", "bound", "margin", "holds"}
     assert summary["verdicts"]["sweep_mean_power_W"]["bound"] is None
     assert len(summary["verdicts"]) == len(report().verdicts) == 36
+
+
+@pytest.mark.parametrize("name", ["report.json", "report", "report.CSV"])
+def test_other_endings_are_refused(tmp_path: Path, name: str) -> None:
+    with pytest.raises(ValueError, match=r"FeasibilityReport.save: path must be one that"):
+        report().save(tmp_path / name)
 
 
 def test_saved_table(tmp_path: Path) -> None:
@@ -233,7 +240,11 @@ def test_progress_rises_to_one() -> None:
     ("arguments", "said"),
     [
         ({"rig": 3}, "rig must be a Rig"),
+        ({"rig": Rig}, "rig must be a Rig"),
         ({"stroke": "flap"}, "stroke must be a stroke"),
+        ({"stroke": lambda time: time}, "check_feasibility: stroke must be a stroke"),
+        ({"stroke": SunTangStroke}, "check_feasibility: stroke must be a stroke"),
+        ({"progress": 1}, "progress must be a function"),
         ({"cycles": 1}, "cycles must be a whole number"),
         ({"limits": 7}, "limits must be a Limits"),
         ({"tolerances": 0.1}, "tolerances must be a Tolerances"),

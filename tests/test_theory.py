@@ -23,8 +23,9 @@ def test_theodorsen_against_printed_values():
     assert theory.theodorsen(1e4) == pytest.approx(0.5, abs=1e-4)
     assert theory.theodorsen(1e-9) == pytest.approx(1.0, abs=1e-7)
     # no pole and no lost phase at the ends of the doubles
-    np.testing.assert_allclose(theory.theodorsen([5e-324, 1e-300, 1e20, 1e300]), [1, 1, 0.5, 0.5],
-                               atol=1e-7)
+    np.testing.assert_allclose(
+        theory.theodorsen([5e-324, 1e-300, 1e20, 1e300]), [1, 1, 0.5, 0.5], atol=1e-7
+    )
 
 
 def test_theodorsen_is_the_spectrum_of_wagner():
@@ -33,8 +34,10 @@ def test_theodorsen_is_the_spectrum_of_wagner():
         return (theory.wagner(s + 1e-5) - theory.wagner(s)) / 1e-5
 
     for k in (0.1, 0.3, 1.0):
-        parts = [quad(lambda s, f=f, k=k: rate(s) * f(k * s), 0, 300, limit=400)[0]
-                 for f in (np.cos, np.sin)]
+        parts = [
+            quad(lambda s, f=f, k=k: rate(s) * f(k * s), 0, 300, limit=400)[0]
+            for f in (np.cos, np.sin)
+        ]
         assert abs(0.5 + parts[0] - 1j * parts[1] - theory.theodorsen(k)) < 0.015
 
 
@@ -47,7 +50,8 @@ def test_added_mass_and_inertia_against_energy_of_the_potential_flow():
     assert theory.added_mass_per_span(RHO, C) == pytest.approx(mass, rel=1e-9)
     assert theory.added_inertia_per_span(RHO, C) == pytest.approx(inertia, rel=1e-9)
     np.testing.assert_allclose(
-        theory.added_mass_per_span(RHO, [1.0, 2.0]), [250 * np.pi, 1000 * np.pi])
+        theory.added_mass_per_span(RHO, [1.0, 2.0]), [250 * np.pi, 1000 * np.pi]
+    )
 
 
 def test_added_mass_of_the_rig():
@@ -94,8 +98,13 @@ def test_still_fluid_leaves_added_mass_and_inertia():
     assert abs(lift) < 1e-6 * abs(moment) / C
 
 
-@given(w=st.floats(0, 50), heave=st.floats(-0.1, 0.1), pitch=st.floats(-0.3, 0.3),
-       one=st.floats(0, 1), two=st.floats(0, 1))
+@given(
+    w=st.floats(0, 50),
+    heave=st.floats(-0.1, 0.1),
+    pitch=st.floats(-0.3, 0.3),
+    one=st.floats(0, 1),
+    two=st.floats(0, 1),
+)
 def test_one_motion_seen_from_two_axes(w, heave, pitch, one, two):
     # the same plate: heave differs by the lever, lift agrees, moment shifts by lift times lever
     lever = (two - one) * C

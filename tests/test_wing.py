@@ -72,11 +72,16 @@ def test_integrals_of_any_table_against_quadrature(wing):
     scale = wing.density * wing.thickness
     zz = area * wing.thickness**2 / 12
     expected = scale * np.array(
-        [[moments["yy"] + zz, -moments["xy"], 0], [-moments["xy"], moments["xx"] + zz, 0],
-         [0, 0, moments["xx"] + moments["yy"]]])
+        [
+            [moments["yy"] + zz, -moments["xy"], 0],
+            [-moments["xy"], moments["xx"] + zz, 0],
+            [0, 0, moments["xx"] + moments["yy"]],
+        ]
+    )
     np.testing.assert_allclose(wing.inertia, expected, rtol=1e-10, atol=1e-12 * expected.max())
     np.testing.assert_allclose(
-        wing.centroid, [moments["x"] / area, moments["y"] / area, 0], rtol=1e-10, atol=1e-12)
+        wing.centroid, [moments["x"] / area, moments["y"] / area, 0], rtol=1e-10, atol=1e-12
+    )
     assert wing.radius_of_second_moment == pytest.approx(np.sqrt(moments["yy"] / area), rel=1e-12)
 
 
@@ -99,7 +104,8 @@ def test_rig_wing_is_the_papers():
     assert RIG_WING.mass == pytest.approx(0.0553125, rel=1e-12)
     assert RIG_WING.pitch_axis == 0.25
     np.testing.assert_allclose(
-        RIG_WING.stations, [[0.025, 0.0625, -0.015625], [0.275, 0.0625, -0.015625]], atol=1e-16)
+        RIG_WING.stations, [[0.025, 0.0625, -0.015625], [0.275, 0.0625, -0.015625]], atol=1e-16
+    )
 
 
 def test_delta_wing_from_table():
@@ -152,7 +158,8 @@ def test_values_compare_hash_pickle_and_print():
     assert Wing.rectangular(0.25, 0.0625, 0.02) != RIG_WING
     assert pickle.loads(pickle.dumps(RIG_WING)) == RIG_WING
     assert repr(RIG_WING) == (
-        "Wing(span=0.25 m, mean_chord=0.0625 m, root_offset=0.025 m, 2 stations)")
+        "Wing(span=0.25 m, mean_chord=0.0625 m, root_offset=0.025 m, 2 stations)"
+    )
 
 
 def test_stations_are_fresh_contiguous_doubles():

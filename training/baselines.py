@@ -19,10 +19,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from tyro.conf import arg
+from tyro.conf import FlagCreatePairsOff, arg
 
 from flaprig import _checks as check
-from training.arguments import parse
+from flaprig.commands.arguments import parse
+from flaprig.commands.failures import EXPECTED, STOPPED, exit_code, sentence
 from training.problem import Problem
 from training.settings import Bounds
 
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-BAD_INPUT = 2
 # spread of the first population, in units of the largest coefficient
 SIGMA = 0.05
 # strokes in one generation of either search
@@ -189,17 +189,21 @@ def _best(settings: Any, args: Args) -> Candidate:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line and return its exit code: 0 fine, 2 bad input."""
+    """Run the command line and return its exit code: 0 fine, 1 failed, 2 bad input, 130 stopped."""
     try:
         about = (__doc__ or "").splitlines()[0]
-        args = parse(Args, "python -m training.baselines", about, argv)
-        from training.records import open_folder
+        args = parse(Args, "python -m training.baselines", argv, about, (FlagCreatePairsOff,))
+        from training.records import opened_folder
 
-        open_folder(args.out, {"algorithm": "baselines", **asdict(args), "out": None}, False)
-        {"compare": compare, "sweep": sweep}[args.what](args)
-    except (ValueError, OSError) as error:
-        print(f"training.baselines: {error}", file=sys.stderr)
-        return BAD_INPUT
+        settings = {"algorithm": "baselines", **asdict(args), "out": None}
+        with opened_folder(args.out, settings, resume=False):
+            {"compare": compare, "sweep": sweep}[args.what](args)
+    except EXPECTED as error:
+        print(f"training.baselines: {sentence(error)}", file=sys.stderr)
+        return exit_code(error)
+    except KeyboardInterrupt:
+        print("training.baselines: stopped", file=sys.stderr)
+        return STOPPED
     return 0
 
 

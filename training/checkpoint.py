@@ -14,9 +14,12 @@ import numpy as np
 import torch
 
 from flaprig.files import written_whole
+from training.export import check_size
 
 # raised when the meaning of a file changes
 VERSION = 1
+# most that a checkpoint may hold, unpacked: a hundred times one of 4096 environments [bytes]
+MOST_BYTES = 2**30
 # key under which a value is wrapped that torch's restricted format does not know
 _ARRAY, _JSON = "__array__", "__json__"
 
@@ -77,11 +80,15 @@ def read(path: Path) -> dict[str, Any]:
     """
     if not path.is_file():
         raise FileNotFoundError(f"there is no checkpoint {path}")
+    check_size(path, MOST_BYTES)
     try:
         state = torch.load(path, map_location="cpu", weights_only=True)
-    except Exception as error:
-        first = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise ValueError(f"{path} is no checkpoint that can be read safely: {first}") from None
+    except MemoryError:
+        raise
+    except Exception:
+        # torch would tell how to switch the safety off
+        why = "it is damaged, or it holds more than numbers and texts"
+        raise ValueError(f"{path} is no checkpoint that can be read safely: {why}") from None
     if not isinstance(state, dict) or state.get("version") != VERSION:
         raise ValueError(f"{path} is no checkpoint of version {VERSION}")
     return unpacked(state)

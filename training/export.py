@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import zipfile
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,13 @@ Array = NDArray[np.float32]
 
 # what the file says it is
 FORMAT = "flaprig policy 1"
+# most that a policy may hold, unpacked: a hundred times one of SB3's default size [bytes]
+MOST_BYTES = 2**26
+# what numpy, zlib and json raise for a file that is none; also one that claims to be endless
+_UNREADABLE = (
+    *(ValueError, KeyError, OSError, AttributeError, TypeError, EOFError, MemoryError),
+    *(RecursionError, NotImplementedError, SyntaxError, zipfile.BadZipFile, zlib.error),
+)
 # arrays of SB3's MlpPolicy with separate actor and critic
 _HIDDEN, _OUTPUT = "mlp_extractor.policy_net", "action_net"
 
@@ -54,6 +62,22 @@ def save_policy(path: Path, policy: torch.nn.Module, about: dict[str, Any]) -> N
         np.savez_compressed(stream, about=np.array(text), **arrays)
 
 
+def check_size(path: Path, most: int) -> None:
+    """Refuse a file that unpacks to more than `most` bytes, before it is unpacked.
+
+    Raises:
+        ValueError: it holds too much.
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            size = sum(entry.file_size for entry in archive.infolist())
+    except (zipfile.BadZipFile, ValueError, NotImplementedError):
+        size = path.stat().st_size
+    if size > most:
+        allowed = f"at most {most // 2**20} MiB unpacked"
+        raise ValueError(f"{path} must be {allowed}, got {size / 2**20:.0f} MiB")
+
+
 def load_weights(path: Path) -> dict[str, Array]:
     """Weights by name from an exported policy; nothing in the file is executed.
 
@@ -63,11 +87,12 @@ def load_weights(path: Path) -> dict[str, Array]:
     """
     if not path.is_file():
         raise FileNotFoundError(f"there is no policy file {path}")
+    check_size(path, MOST_BYTES)
     try:
         with np.load(path, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
         about = json.loads(str(arrays.pop("about")))
-    except (ValueError, KeyError, OSError, AttributeError, zipfile.BadZipFile):
+    except _UNREADABLE:
         raise ValueError(f"{path} is no exported policy (NPZ without pickle)") from None
     if not isinstance(about, dict) or about.get("format") != FORMAT:
         raise ValueError(f"{path} is no exported policy of the format {FORMAT!r}")

@@ -60,7 +60,7 @@ class Learner:
     """PPO on one environment, whose whole state can be taken and put back."""
 
     def __init__(self, env: HoverVecEnv, pace: Pace, ppo: Ppo, seed: int, board: Path) -> None:
-        self.pace, self.ppo, self.done = pace, ppo, 0
+        self.pace, self.ppo, self.done = pace, ppo.begun(trained=False), 0
         # networks this small gain nothing from threads, and lose much where cores are shared
         torch.set_num_threads(1)
         self.gains = Gains(env)
@@ -172,7 +172,7 @@ def build(env: VecEnv, pace: Pace, ppo: Ppo, seed: int) -> PPO:
         clip_range=ppo.clip_range,
         target_kl=ppo.target_kl,
         ent_coef=ppo.entropy,
-        policy_kwargs={"log_std_init": ppo.log_std},
+        policy_kwargs={"log_std_init": ppo.begun(trained=False).log_std},
         seed=seed,
         device="cpu",
     )

@@ -16,18 +16,17 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from tyro.conf import arg
+from tyro.conf import FlagCreatePairsOff, arg
 
 from flaprig import _checks as check
-from training.arguments import parse
+from flaprig.commands.arguments import parse
+from flaprig.commands.failures import EXPECTED, STOPPED, exit_code, sentence
 from training.problem import Problem
 from training.settings import QUASI_STEADY, UVLM, Pace, Ppo
 
 if TYPE_CHECKING:
     from flaprig.tasks.hover_settings import HoverSettings
     from training.learner import Learner
-
-BAD_INPUT, STOPPED = 2, 130
 
 
 @dataclass(frozen=True)
@@ -113,9 +112,10 @@ class Run:
         from training.vector import HoverVecEnv
 
         ppo, seed = self.args.ppo, self.args.seed + 1000 * number
-        if number > 0 or self.args.start is not None:
-            # what goes on with a trained policy explores as that one did at its end
-            ppo = replace(ppo, log_std=ppo.last_log_std)
+        if number > 0:
+            # the exploration that was asked for is that of the beginning
+            ppo = replace(ppo, log_std=None)
+        ppo = ppo.begun(trained=number > 0 or self.args.start is not None)
         env = HoverVecEnv(settings, pace.envs)
         learner = Learner(env, pace, ppo, seed, self.args.out / "tensorboard")
         if self.saved is None:
@@ -137,6 +137,9 @@ class Run:
             export.fill(learner.model.policy, export.load_weights(start), start)
         else:
             learner.begin_with(self.checkpoint.read(start)["learner"])
+        if self.args.ppo.log_std is not None:
+            # the file has an exploration of its own
+            learner.model.policy.log_std.data.fill_(self.args.ppo.log_std)
 
     def _learn(self, number: int, learner: Learner) -> None:
         from flaprig.tasks.hover import Hover
@@ -191,17 +194,17 @@ def _words(row: dict[str, Any]) -> str:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line and return its exit code: 0 fine, 2 bad input, 130 stopped."""
+    """Run the command line and return its exit code: 0 fine, 1 failed, 2 bad input, 130 stopped."""
     try:
         about = (__doc__ or "").splitlines()[0]
-        args = parse(Args, "python -m training.ppo", about, argv)
-        from training.records import open_folder
+        args = parse(Args, "python -m training.ppo", argv, about, (FlagCreatePairsOff,))
+        from training.records import opened_folder
 
-        open_folder(args.out, args.settings(), args.resume)
-        Run(args).run()
-    except (ValueError, OSError) as error:
-        print(f"training.ppo: {error}", file=sys.stderr)
-        return BAD_INPUT
+        with opened_folder(args.out, args.settings(), args.resume):
+            Run(args).run()
+    except EXPECTED as error:
+        print(f"training.ppo: {sentence(error)}", file=sys.stderr)
+        return exit_code(error)
     except KeyboardInterrupt:
         print("training.ppo: stopped; --resume continues from the last update", file=sys.stderr)
         return STOPPED

@@ -33,8 +33,9 @@ class Problem:
     lattice: Lattice = Lattice()
 
     def __post_init__(self) -> None:
-        # the room below checks the rest
+        # the room below checks the rest, of both stages
         self.quasi_steady()
+        self.uvlm()
 
     def quasi_steady(self) -> HoverSettings:
         """Stage 1.
@@ -52,7 +53,11 @@ class Problem:
         )
 
     def uvlm(self) -> HoverSettings:
-        """Stage 2."""
+        """Stage 2.
+
+        Raises:
+            ValueError: a setting out of its range.
+        """
         grid = self.lattice
         model = UVLM(grid.chordwise, grid.spanwise, grid.steps_per_cycle)
         cycles, skipped = grid.cycles, grid.cycles - 1

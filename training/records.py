@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import json
 import platform
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from flaprig.files import written_whole
+from flaprig.files import FolderLock, sweep_drafts, written_whole
 from flaprig.report.numbers import as_json
 from flaprig.tasks.hover_settings import HoverSettings
 from training.candidate import Candidate
 
 CONFIG, METRICS, CHECKPOINT, POLICY = "config.json", "metrics.csv", "checkpoint.pt", "policy.npz"
+# endings of what a run keeps as it goes
+_KEPT = (".pt", ".csv")
 # what a result depends on
 PACKAGES = ("flaprig", "mujoco", "numpy", "torch", "stable-baselines3", "gymnasium", "cma")
 
@@ -31,30 +34,58 @@ def versions() -> dict[str, str]:
     return found
 
 
-def open_folder(path: Path, settings: dict[str, Any], resume: bool) -> None:
-    """Make the folder and write its config, or check that it is the one to be resumed.
+@contextmanager
+def opened_folder(path: Path, settings: dict[str, Any], resume: bool) -> Iterator[None]:
+    """The folder of a run, which no other run writes into meanwhile, with its config.
+
+    A new run that fails before it has kept anything takes its config away again.
 
     Raises:
         ValueError: a run is there already, or the one to be resumed has other settings.
         OSError: the folder cannot be made.
     """
-    config = path / CONFIG
-    if config.is_file():
-        if not resume:
-            raise ValueError(f"{path} holds a run already: --resume continues it")
-        _check_same(path, json.loads(config.read_text())["settings"], settings)
-        return
     if path.exists() and not path.is_dir():
         raise ValueError(f"--out must be a folder, and {path} is a file")
     path.mkdir(parents=True, exist_ok=True)
-    _write(config, as_json({"settings": settings, "versions": versions()}) + "\n")
+    lock = FolderLock(path)
+    try:
+        sweep_drafts(path)
+        config = path / CONFIG
+        begun = config.is_file()
+        if begun and not resume:
+            raise ValueError(f"{path} holds a run already: --resume continues it")
+        if begun:
+            _check_same(path, _settings_of(config), settings)
+        else:
+            _write(config, as_json({"settings": settings, "versions": versions()}) + "\n")
+        try:
+            yield
+        except BaseException:
+            if not begun and not any(file.suffix in _KEPT for file in path.iterdir()):
+                config.unlink(missing_ok=True)
+            raise
+    finally:
+        lock.release()
+
+
+def _settings_of(config: Path) -> dict[str, Any]:
+    try:
+        settings = json.loads(config.read_text(encoding="utf-8"))["settings"]
+    except (ValueError, KeyError, TypeError, RecursionError):
+        settings = None
+    if not isinstance(settings, dict):
+        raise ValueError(f"{config} is no config of a run, so nothing can be resumed there")
+    return settings
 
 
 def _check_same(path: Path, old: dict[str, Any], new: dict[str, Any]) -> None:
     new = json.loads(as_json(new))
     other = sorted(key for key in old.keys() | new.keys() if old.get(key) != new.get(key))
     if other:
-        raise ValueError(f"{path} was begun with other settings of {', '.join(other)}")
+        raise ValueError(
+            f"{path} was begun with other settings of {', '.join(other)}; with these, another "
+            f"--out and --start {path / CHECKPOINT} go on from its policy"
+        )
 
 
 def write_metrics(path: Path, rows: Sequence[dict[str, Any]], name: str = METRICS) -> None:

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Annotated
+
+from tyro.conf import arg
 
 from flaprig import _checks as check
+
+# logarithm of the exploration's standard deviation of a policy that knows nothing
+FIRST_LOG_STD = -1.5
+_LEFT_OUT = arg(metavar="FLOAT", help_behavior_hint="(optional)")
 
 
 @dataclass(frozen=True)
@@ -18,9 +25,11 @@ class Ppo:
         clip_range: how far an update may move the policy's probabilities.
         target_kl: an update ends early when it has moved the policy by 1.5 times this.
         entropy: weight of the entropy bonus.
-        log_std: logarithm of the exploration's standard deviation at the beginning of stage 1.
-        last_log_std: what it may be at most at the end; the cap falls along a line in stage 1 and
-            stays in stage 2.
+        log_std: logarithm of the exploration's standard deviation where learning begins. Left out
+            it is -1.5, and with --start last_log_std at most: a trained policy explores as it did
+            at its end.
+        last_log_std: what it may be at most at the end; the cap falls along a line in the first
+            stage and stays in the second.
     """
 
     gamma: float = 0.3
@@ -28,7 +37,7 @@ class Ppo:
     clip_range: float = 0.2
     target_kl: float = 0.1
     entropy: float = 0.0
-    log_std: float = -1.5
+    log_std: Annotated[float | None, _LEFT_OUT] = None
     last_log_std: float = -3.5
 
     def __post_init__(self) -> None:
@@ -37,8 +46,20 @@ class Ppo:
         check.in_range("ppo", "clip_range", self.clip_range, 0.01, 1.0)
         check.in_range("ppo", "target_kl", self.target_kl, 1e-6, 1e3)
         check.in_range("ppo", "entropy", self.entropy, 0.0, 1.0)
-        check.in_range("ppo", "log_std", self.log_std, -7.0, 1.0)
-        check.in_range("ppo", "last_log_std", self.last_log_std, -7.0, self.log_std)
+        most = FIRST_LOG_STD
+        if self.log_std is not None:
+            most = check.in_range("ppo", "log_std", self.log_std, -7.0, 1.0)
+        check.in_range("ppo", "last_log_std", self.last_log_std, -7.0, most)
+
+    def begun(self, trained: bool) -> Ppo:
+        """With the standard deviation of the exploration at a stage's beginning.
+
+        Args:
+            trained: whether the stage goes on with a policy that has learned before.
+        """
+        if self.log_std is not None:
+            return self
+        return replace(self, log_std=self.last_log_std if trained else FIRST_LOG_STD)
 
 
 @dataclass(frozen=True)

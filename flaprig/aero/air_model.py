@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Protocol
+from typing import ClassVar, Protocol, runtime_checkable
 
 from flaprig.fluid import Fluid
 from flaprig.wing import Wing
@@ -12,6 +12,7 @@ from flaprig.wing import Wing
 SWEEP_AMPLITUDE = math.pi / 3
 
 
+@runtime_checkable
 class AirModel(Protocol):
     """An air model, as settings."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from flaprig.aero.air import WingLoads
 from flaprig.aero.models import UVLM, AirModel
 from flaprig.aero.result import Result
 from flaprig.aero.rigid_motion import RigidMotion
-from flaprig.aero.simulate import prescribed, result_of
+from flaprig.aero.simulate import check_setup, prescribed, result_of
 from flaprig.fluid import WATER, Fluid
 from flaprig.native import _native
 from flaprig.strokes.stroke import Stroke
@@ -41,18 +41,32 @@ def simulate_batch(
         threads: strokes at work at a time; one for each core when None.
 
     Raises:
-        ValueError: a value out of range.
+        ValueError: an argument of the wrong type or out of its range.
         FloatingPointError: the loads of a stroke are not finite.
     """
+    owner = "simulate_batch"
     model = UVLM() if model is None else model
-    check.whole("simulate_batch", "cycles", cycles, 1, 1000)
-    threads = check.whole("simulate_batch", "threads", threads or os.cpu_count() or 1, 1, 1024)
+    check_setup(owner, wing, model, fluid)
+    strokes = _checked_strokes(owner, strokes)
+    cycles = check.whole(owner, "cycles", cycles, 1, 1000)
+    cores = os.cpu_count() or 1
+    threads = check.whole(owner, "threads", cores if threads is None else threads, 1, 1024)
     results: dict[int, Result] = {}
     for members in _alike(wing, strokes, model, fluid):
         chosen = [strokes[k] for k in members]
         group = _run(wing, chosen, model, fluid, cycles, threads)
         results |= dict(zip(members, group, strict=True))
     return [results[k] for k in range(len(strokes))]
+
+
+def _checked_strokes(owner: str, strokes: Sequence[Stroke]) -> list[Stroke]:
+    if isinstance(strokes, type) or not isinstance(strokes, Iterable):
+        raise check.fail(owner, "strokes", "a list of strokes", strokes)
+    chosen = list(strokes)
+    for number, stroke in enumerate(chosen):
+        words = "a stroke, for instance a SunTangStroke"
+        check.instance(owner, f"strokes[{number}]", stroke, Stroke, words)
+    return chosen
 
 
 def _alike(wing: Wing, strokes: Sequence[Stroke], model: AirModel, fluid: Fluid) -> list[list[int]]:
@@ -73,8 +87,8 @@ def _run(
     settings = model.attributes(wing, fluid, first.frequency, first.sweep_amplitude)
     loads = batch_loads(model, settings, rigid, 1.0 / (steps * first.frequency), threads)
     return [
-        result_of(wing, stroke, fluid, motion, moved, load, cycles)
-        for stroke, motion, moved, load in zip(strokes, motions, rigid, loads, strict=True)
+        result_of(wing, stroke, fluid, motion, load, cycles)
+        for stroke, motion, load in zip(strokes, motions, loads, strict=True)
     ]
 
 

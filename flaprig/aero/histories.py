@@ -23,7 +23,8 @@ class Histories:
         sweep_rate: [rad/s].
         pitch_rate: [rad/s].
         lift: upward force [N].
-        drag: force against the sweep, positive when it opposes the motion [N].
+        drag: force against the sweep, positive when it opposes the motion; at a reversal weighed by
+            the parts of the sample's interval before and after it (aero/loads.py) [N].
         sweep_torque: of the fluid on the wing about the sweep axis [N m].
         pitch_torque: of the fluid on the wing about the pitch axis, along +pitch [N m].
         power: given to the fluid, -(sweep_torque sweep_rate + pitch_torque pitch_rate) [W].

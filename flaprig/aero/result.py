@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from flaprig.aero.histories import Histories
 from flaprig.aero.notices import doubts_of_loads
-from flaprig.files import write_table
+from flaprig.files import plain, write_table
 from flaprig.strokes.stroke import Stroke
 
 Array = NDArray[np.float64]
@@ -112,8 +112,11 @@ class Result:
         first, last = self.averaged_cycles
         return history[(first - 1) * self.steps_per_cycle : last * self.steps_per_cycle]
 
-    def summary(self) -> dict[str, float | list[int]]:
-        """Means and peaks with SI units in the names, as the command line prints them."""
+    def summary(self) -> dict[str, float | list[int] | None]:
+        """Means and peaks with SI units in the names, as the command line prints them.
+
+        The spread of a single cycle is None, so that the summary is valid JSON.
+        """
         h = self.histories
         peaks = {
             "peak_sweep_torque_Nm": np.abs(self.averaged(h.sweep_torque)).max(),
@@ -125,7 +128,7 @@ class Result:
             "mean_lift_N": self.averaged(h.lift).mean(),
             "mean_drag_N": self.averaged(h.drag).mean(),
         }
-        coefficients: dict[str, float | list[int]] = {
+        coefficients: dict[str, float | list[int] | None] = {
             "cl": self.cl,
             "cl_spread": self.cl_spread,
             "cd": self.cd,
@@ -134,7 +137,7 @@ class Result:
             "lift_to_drag_spread": self.lift_to_drag_spread,
             "averaged_cycles": list(self.averaged_cycles),
         }
-        return coefficients | {name: float(value) for name, value in peaks.items()}
+        return {name: plain(value) for name, value in (coefficients | peaks).items()}
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the histories: CSV or NPZ by the path's ending, units in the header.

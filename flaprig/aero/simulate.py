@@ -8,11 +8,12 @@ from numpy.typing import NDArray
 from flaprig import _checks as check
 from flaprig.aero.air import Air, Progress, WingLoads
 from flaprig.aero.histories import Histories
+from flaprig.aero.loads import side_force, sweep_direction, upward
 from flaprig.aero.models import UVLM, AirModel
 from flaprig.aero.result import Result, averaged_cycles
 from flaprig.aero.rigid_motion import RigidMotion
 from flaprig.fluid import WATER, Fluid
-from flaprig.strokes.stroke import Motion, Stroke
+from flaprig.strokes.stroke import Motion, Stroke, check_stroke
 from flaprig.wing import Wing
 
 Array = NDArray[np.float64]
@@ -52,18 +53,34 @@ def simulate(
         progress: called with the fraction done.
 
     Raises:
-        ValueError: a value out of range.
+        ValueError: an argument of the wrong type or out of its range.
         FloatingPointError: the loads are not finite; says from which time on.
     """
+    owner = "simulate"
     model = UVLM() if model is None else model
-    check.whole("simulate", "cycles", cycles, 1, 1000)
-    check.whole("simulate", "substeps", substeps, 1, 1000)
+    check_setup(owner, wing, model, fluid)
+    check_stroke(owner, stroke)
+    cycles = check.whole(owner, "cycles", cycles, 1, 1000)
+    substeps = check.whole(owner, "substeps", substeps, 1, 1000)
+    check.callback(owner, "progress", progress)
     steps = model.steps_per_cycle * substeps
     motion = prescribed(stroke, cycles, steps)
     rigid = RigidMotion.from_stroke(motion)
     air = Air(wing, fluid, model, stroke.frequency, stroke.sweep_amplitude)
     loads = air.run(rigid, 1.0 / (steps * stroke.frequency), progress)
-    return result_of(wing, stroke, fluid, motion, rigid, loads, cycles)
+    return result_of(wing, stroke, fluid, motion, loads, cycles)
+
+
+def check_setup(owner: str, wing: Wing, model: AirModel, fluid: Fluid) -> None:
+    """Refuse what is no wing, no model of the fluid or no fluid.
+
+    Raises:
+        ValueError: one sentence that names the argument.
+    """
+    check.instance(owner, "wing", wing, Wing, "a Wing, for instance RIG_WING")
+    words = "a model of the fluid, for instance UVLM() or QuasiSteady()"
+    check.instance(owner, "model", model, AirModel, words)
+    check.instance(owner, "fluid", fluid, Fluid, "a Fluid, for instance WATER")
 
 
 def prescribed(stroke: Stroke, cycles: int, steps: int) -> Motion:
@@ -83,7 +100,6 @@ def result_of(
     stroke: Stroke,
     fluid: Fluid,
     motion: Motion,
-    rigid: RigidMotion,
     loads: WingLoads,
     cycles: int,
 ) -> Result:
@@ -93,9 +109,10 @@ def result_of(
         FloatingPointError: the loads are not finite; says from which time on.
     """
     _require_finite(loads, motion.time)
-    histories = stroke_histories(motion, rigid, loads)
+    steps = motion.time.size // cycles
+    histories = stroke_histories(motion, loads, stroke.period / steps)
     force = reference_force(wing, stroke, fluid)
-    found = Result(histories, force, motion.time.size // cycles, averaged_cycles(cycles))
+    found = Result(histories, force, steps, averaged_cycles(cycles))
     return found.doubted(stroke)
 
 
@@ -108,35 +125,30 @@ def _require_finite(loads: WingLoads, time: Array) -> None:
         )
 
 
-def stroke_histories(motion: Motion, rigid: RigidMotion, loads: WingLoads) -> Histories:
-    """Lift, drag, torques and power of wing loads along a stroke."""
-    lift, drag = _lift_drag(motion, rigid, loads.total)
-    extra = _lift_drag(motion, rigid, loads.extra)
-    added = _lift_drag(motion, rigid, loads.added_mass)
-    # torque about z; the pitch axis is -span
-    sweep_torque = np.einsum("nj,nj->n", rigid.rotation[:, 2], loads.total[:, 3:])
-    pitch_torque = -loads.total[:, 4]
-    power = -(sweep_torque * motion.sweep_rate + pitch_torque * motion.pitch_rate)
+def stroke_histories(motion: Motion, loads: WingLoads, step: float) -> Histories:
+    """Lift, drag, torques and power of wing loads along a stroke at equal steps in [s]."""
+    pitch, total = motion.pitch, loads.total
+    direction = sweep_direction(motion.sweep_rate, motion.sweep_acceleration, step)
+
+    def drag(wrench: Array) -> Array:
+        return direction * side_force(wrench[:, :3], pitch)
+
+    sweep_torque = upward(total[:, 3:], pitch)
+    # the pitch axis is -span
+    pitch_torque = -total[:, 4]
     return Histories(
-        motion.time,
-        motion.sweep,
-        motion.pitch,
-        motion.sweep_rate,
-        motion.pitch_rate,
-        lift,
-        drag,
-        sweep_torque,
-        pitch_torque,
-        power,
-        extra[0],
-        extra[1],
-        added[0],
-        added[1],
+        time=motion.time,
+        sweep=motion.sweep,
+        pitch=pitch,
+        sweep_rate=motion.sweep_rate,
+        pitch_rate=motion.pitch_rate,
+        lift=upward(total[:, :3], pitch),
+        drag=drag(total),
+        sweep_torque=sweep_torque,
+        pitch_torque=pitch_torque,
+        power=-(sweep_torque * motion.sweep_rate + pitch_torque * motion.pitch_rate),
+        lift_extra=upward(loads.extra[:, :3], pitch),
+        drag_extra=drag(loads.extra),
+        lift_added_mass=upward(loads.added_mass[:, :3], pitch),
+        drag_added_mass=drag(loads.added_mass),
     )
-
-
-def _lift_drag(motion: Motion, rigid: RigidMotion, loads: Array) -> tuple[Array, Array]:
-    """Upward force, and force against the sweep (paper, eq. 12)."""
-    force = np.einsum("nij,nj->ni", rigid.rotation, loads[:, :3])
-    along = -force[:, 0] * np.sin(motion.sweep) + force[:, 1] * np.cos(motion.sweep)
-    return force[:, 2], -np.sign(motion.sweep_rate) * along

@@ -98,7 +98,8 @@ class UVLM:
         check.whole(owner, "chordwise", self.chordwise, 1, 64)
         check.whole(owner, "spanwise", self.spanwise, 1, 128)
         if self.chordwise * self.spanwise > 1024:
-            raise check.fail(owner, "chordwise * spanwise", "at most 1024", self.spanwise)
+            product = self.chordwise * self.spanwise
+            raise check.fail(owner, "chordwise * spanwise", "at most 1024", product)
         check.whole(owner, "steps_per_cycle", self.steps_per_cycle, 4, 100_000)
         if not isinstance(self.suction_efficiency, SuctionLaw):
             check.in_range(owner, "suction_efficiency", self.suction_efficiency, 0, 10)

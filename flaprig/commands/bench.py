@@ -97,7 +97,7 @@ def run(args: Bench | OneBenchmark, folder: Folder) -> None:
         raise check.fail("bench", "--all", "given without names", " ".join(args.name))
     chosen = [benchmark_named(name)() for name in dict.fromkeys(args.name) or BENCHMARKS]
     if args.all and not folder:
-        folder.path = docs("bench")
+        folder.share(docs("bench"))
     return _run(chosen, args.json, folder, PAGE if args.all else None)
 
 

@@ -94,6 +94,7 @@ def run(args: Check, folder: Folder) -> int:
         summary |= {"scale": scaled[0].summary() | scaled[1].summary()}
     summary |= spent
     _write(folder, case, report, summary)
+    summary = folder.write_summary(summary)
     if args.json:
         print(as_json(summary))
     else:
@@ -166,7 +167,7 @@ def _write(folder: Folder, case: Case, report: FeasibilityReport, summary: dict[
     if not folder:
         return
     folder.write("report.csv", report.save)
-    folder.write_text("summary.json", as_json(summary) + "\n")
+    folder.write_summary(summary)
     if report.projection.changed:
         folder.write("nearest.csv", report.projection.stroke.save)
     title = f"Torque and speed of the servos, {_title(case, report)}"
@@ -192,5 +193,4 @@ def _tell(
     if scaled:
         print_scale(console, *scaled)
     if folder:
-        names = ", ".join(path.name for path in folder.written)
-        console.print(f"Written to {folder.path}: {names}", highlight=False, markup=False)
+        console.print(folder.sentences(), highlight=False, markup=False)

@@ -19,7 +19,6 @@ from flaprig.commands.twin import fly, write_motors
 from flaprig.report import style
 from flaprig.report.folder import Folder
 from flaprig.report.forces import Curve, draw_forces
-from flaprig.report.numbers import as_json
 from flaprig.report.table import averaging, difference, print_comparison
 
 # measured in the paper on this stroke: mean C_L and L/D (table 1, sinusoidal row)
@@ -71,7 +70,7 @@ def run(args: Demo, folder: Folder) -> None:
         "difference_percent": _differences(summaries),
         **spent,
     }
-    folder.write_text("summary.json", as_json(summary) + "\n")
+    folder.write_summary(summary)
     title = "The rig's sinusoidal stroke in water: 0.2 Hz, sweep ±60°, pitch ±45°"
     print_comparison(console, title, summaries, PUBLISHED, "paper, measured")
     console.print(
@@ -82,6 +81,7 @@ def run(args: Demo, folder: Folder) -> None:
     folder.write("forces.png", lambda draft: draw_forces(draft, curves, title))
     write_wake(folder, _case(MODELS[0], args.cycles))
     words = _film(folder)
+    folder.write_summary(summary)
     for path in folder.written:
         console.print(str(path), highlight=False, markup=False, soft_wrap=True)
     console.print(words, highlight=False, markup=False)

@@ -116,10 +116,11 @@ def run(args: Reproduce, folder: Folder) -> None:
         "cases": rows,
         "wall_time": {**spent, "judging_s": judging["wall_time_s"]},
     }
-    folder.write_text("summary.json", as_json(summary) + "\n")
+    folder.write_summary(summary)
     for name, stroke in zip(("case_a", "case_b"), list(strokes.values())[1:], strict=True):
         folder.write(f"{name}.json", stroke.save)
     draw_reproduction(folder, strokes)
+    summary = folder.write_summary(summary)
     if args.json:
         print(as_json(summary))
         return

@@ -40,7 +40,7 @@ def write_histories(
     """histories.csv, histories.npz and summary.json."""
     folder.write("histories.csv", save)
     folder.write("histories.npz", save)
-    folder.write_text("summary.json", as_json(summary) + "\n")
+    folder.write_summary(summary)
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,8 @@ def draw_wake_of(folder: Folder, shot: Snapshot, sweep_amplitude: float, words: 
 
 
 def tell(as_object: bool, title: str, summary: dict[str, Any], folder: Folder) -> None:
-    """On stdout: one JSON object and nothing else, or a table and the files."""
+    """Complete summary.json; print one JSON object and nothing else, or a table and the files."""
+    summary = folder.write_summary(summary)
     if as_object:
         print(as_json(summary))
         return
@@ -158,5 +159,4 @@ def tell(as_object: bool, title: str, summary: dict[str, Any], folder: Folder) -
     print_run(console, title, summary)
     print_notices(console, summary["notices"])
     if folder:
-        names = ", ".join(path.name for path in folder.written)
-        console.print(f"Written to {folder.path}: {names}", highlight=False, markup=False)
+        console.print(folder.sentences(), highlight=False, markup=False)

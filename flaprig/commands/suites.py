@@ -82,15 +82,19 @@ def run_each(
     folder.create()
     if folder.path is not None and page:
         (folder.path / page.pictures).mkdir(parents=True, exist_ok=True)
-    found = []
+    found, pictures = [], {}
     for part in parts:
         with timed() as spent, progress(part.name) as told:
             outcome = part.run(told)
         found.append((part, outcome, spent["wall_time_s"]))
-        if outcome.draw is not None:
-            place = f"{page.pictures}/{part.name}.png" if page else f"{part.name}.png"
-            folder.write(place, outcome.draw)
+        if outcome.draw is not None and page:
+            pictures[f"{page.pictures}/{part.name}.png"] = outcome.draw
+        elif outcome.draw is not None:
+            folder.write(f"{part.name}.png", outcome.draw)
         show(*found[-1])
+    # a page's pictures at the end, beside the page: a run that fails leaves the old ones to it
+    for place, draw in pictures.items():
+        folder.write(place, draw)
     return found
 
 
@@ -107,9 +111,8 @@ def hand_out(folder: Folder, summary: Any, as_object: bool, page: Page | None, t
     if folder and page:
         folder.write_text(page.name, text)
     elif folder:
-        folder.write_text("summary.json", as_json(summary) + "\n")
+        summary = folder.write_summary(summary)
     if as_object:
         print(as_json(summary))
     elif folder:
-        written = ", ".join(path.name for path in folder.written)
-        Console().print(f"Written to {folder.path}: {written}", highlight=False, markup=False)
+        Console().print(folder.sentences(), highlight=False, markup=False)

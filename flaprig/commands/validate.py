@@ -100,7 +100,7 @@ def run(args: Validate | OneCase, folder: Folder) -> int:
         print_cases(Console(), CASES)
         return WITHIN
     if args.all and not folder:
-        folder.path = docs("validate")
+        folder.share(docs("validate"))
     return _run(cases, args.json, folder, PAGE if args.all else None)
 
 

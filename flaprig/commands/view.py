@@ -79,7 +79,7 @@ def run(args: View, folder: Folder) -> None:
         show(Flight(Twin(rig), stroke))
         return
     file = Path("flapping") if args.video is None else args.video
-    folder.path = file.parent
+    folder.share(file.parent)
     folder.create()
     span = (args.skip, args.skip + args.cycles)
     done = film_rig(folder, file.name, rig, stroke, span, form)

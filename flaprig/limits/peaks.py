@@ -17,7 +17,7 @@ from scipy.interpolate import PPoly, make_interp_spline
 from flaprig import _checks as check
 from flaprig.limits.limits import JOINTS, Bound, Limits
 from flaprig.strokes.sampled import SampledStroke
-from flaprig.strokes.stroke import Motion, Stroke
+from flaprig.strokes.stroke import Motion, Stroke, check_stroke
 
 Array = NDArray[np.float64]
 
@@ -142,16 +142,6 @@ def violations(
             elif least < low - room:
                 broken.append(Violation(joint, bound, least, low))
     return tuple(broken)
-
-
-def check_stroke(owner: str, stroke: Stroke) -> None:
-    """Refuse what is not a stroke.
-
-    Raises:
-        ValueError: one sentence.
-    """
-    if not isinstance(stroke, Stroke):
-        raise check.fail(owner, "stroke", "a stroke, for instance a SunTangStroke", stroke)
 
 
 def check_limits(owner: str, limits: Limits) -> None:

@@ -15,9 +15,9 @@ from flaprig import _checks as check
 from flaprig.limits import spline
 from flaprig.limits.limits import JOINTS, Bound, JointLimits, Limits
 from flaprig.limits.nearest import FAVARD, POINTS, Amplitude, excess, nearest
-from flaprig.limits.peaks import check_limits, check_stroke, violations
+from flaprig.limits.peaks import check_limits, violations
 from flaprig.strokes.sampled import SampledStroke
-from flaprig.strokes.stroke import Stroke
+from flaprig.strokes.stroke import Stroke, check_stroke
 
 Array = NDArray[np.float64]
 

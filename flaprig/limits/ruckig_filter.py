@@ -26,9 +26,9 @@ from ruckig import (
 from flaprig import _checks as check
 from flaprig.limits.intercept import earliest
 from flaprig.limits.limits import Bound, Limits
-from flaprig.limits.peaks import check_limits, check_stroke, violations
+from flaprig.limits.peaks import check_limits, violations
 from flaprig.limits.reference import Mode, Reference, State
-from flaprig.strokes.stroke import Stroke
+from flaprig.strokes.stroke import Stroke, check_stroke
 
 # control interval [s]: of a servo bus at a usual rate, 1 kHz
 INTERVAL = 1e-3

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from flaprig import _checks as check
 from flaprig.files import write_table
 from flaprig.limits.limits import JOINTS, Bound, Limits
-from flaprig.limits.peaks import check_limits, check_stroke
+from flaprig.limits.peaks import check_limits
 from flaprig.limits.projection import Projection, project
 from flaprig.limits.reference import Mode, State
 from flaprig.limits.ruckig_filter import INTERVAL, RuckigFilter
-from flaprig.strokes.stroke import Motion, Stroke
+from flaprig.strokes.stroke import Motion, Stroke, check_stroke
 
 Array = NDArray[np.float64]
 

@@ -3,23 +3,11 @@
 from __future__ import annotations
 
 import json
-import math
 from typing import Any
 
-import numpy as np
+from flaprig.files import plain
 
-
-def plain(value: Any) -> Any:
-    """The value made of dict, list, str, int, float, bool and None only."""
-    if isinstance(value, dict):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
-    if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
+__all__ = ["as_json", "plain"]
 
 
 def as_json(value: dict[str, Any]) -> str:

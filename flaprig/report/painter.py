@@ -70,4 +70,3 @@ class Painter:
         trace: TracebackType | None,
     ) -> None:
         self.close()
-

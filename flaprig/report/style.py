@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from flaprig.files import run_mark
+
 if TYPE_CHECKING:
     from matplotlib.colors import Colormap
     from matplotlib.figure import Figure
@@ -68,7 +70,8 @@ def figure(width: float, height: float, arranged: bool = True) -> Iterator[Figur
 
 def save(drawing: Figure, path: Path) -> None:
     """Write the figure; the ending chooses the format."""
-    drawing.savefig(path)
+    mark = run_mark() if path.suffix == ".png" else {}
+    drawing.savefig(path, metadata=mark)
 
 
 def circulation_colours() -> Colormap:

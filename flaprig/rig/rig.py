@@ -152,9 +152,7 @@ def _move_root(spec: mujoco.MjSpec, root: float) -> None:
 
 
 def _fit_motor(actuator: Any, motor: Motor) -> None:
-    actuator.set_to_dcmotor(
-        motorconst=[0.0, 0.0], resistance=0.0, ctrlspec=INPUTS, **motor.dcmotor
-    )
+    actuator.set_to_dcmotor(motorconst=[0.0, 0.0], resistance=0.0, ctrlspec=INPUTS, **motor.dcmotor)
     actuator.armature = motor.rotor_inertia
 
 

@@ -148,7 +148,7 @@ class FourierStroke(PeriodicStroke):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the stroke as JSON, in [Hz] and [rad], whole or not at all."""
         document = {"stroke": "fourier", "parameters": asdict(self)}
-        write_whole(path, json.dumps(document, indent=2) + "\n")
+        write_whole(path, json.dumps(document, indent=2) + "\n", "JSON")
 
 
 def _checked_pair(

@@ -169,7 +169,7 @@ class SampledStroke(PeriodicStroke):
         """
         rows = zip(self.time, self.sweep, self.pitch, strict=True)
         lines = [HEADER, *(",".join(repr(value) for value in row) + ",1" for row in rows)]
-        write_whole(path, "\n".join(lines) + "\n")
+        write_whole(path, "\n".join(lines) + "\n", "CSV")
 
     @cached_property
     def _splines(self) -> tuple[BSpline, BSpline]:

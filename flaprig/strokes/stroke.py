@@ -87,6 +87,15 @@ class Stroke(Protocol):
         ...
 
 
+def check_stroke(owner: str, stroke: Stroke) -> None:
+    """Refuse what is not a stroke.
+
+    Raises:
+        ValueError: one sentence.
+    """
+    check.instance(owner, "stroke", stroke, Stroke, "a stroke, for instance a SunTangStroke")
+
+
 class PeriodicStroke:
     """What every stroke derives from its frequency and its motion."""
 
@@ -105,11 +114,28 @@ class PeriodicStroke:
         return self.motion(np.arange(count) / (count * self.frequency))
 
 
-def write_whole(path: str | os.PathLike[str], text: str) -> None:
-    """Write a text file at once: a reader sees the old file or the new one, never a half.
+# endings that promise something else, by what a stroke is written as
+FOREIGN = {
+    "JSON": (".csv", ".tsv", ".txt", ".dat", ".npz", ".npy", ".xlsx"),
+    "CSV": (".json", ".npz", ".npy", ".xlsx"),
+}
+
+
+def write_whole(path: str | os.PathLike[str], text: str, form: str) -> None:
+    """Write a stroke at once: a reader sees the old file or the new one, never a half.
+
+    Args:
+        path: of the file; any ending that promises nothing else than the form.
+        text: what is written.
+        form: of the text, JSON or CSV.
 
     Raises:
+        ValueError: an ending that promises another form.
         OSError: the folder does not exist or cannot be written.
     """
+    ending = os.path.splitext(path)[1].lower()
+    if ending in FOREIGN[form]:
+        sentence = f"save: path must not end in {ending}, since this stroke is written as {form}"
+        raise ValueError(f"{sentence}, got {os.fspath(path)!r}")
     with written_whole(path) as draft:
         draft.write_text(text, encoding="utf-8")

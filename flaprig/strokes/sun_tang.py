@@ -15,7 +15,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from flaprig import _checks as check
-from flaprig.strokes.stroke import MOST_FREQUENCY, Array, Motion, PeriodicStroke, write_whole
+from flaprig.strokes.stroke import (
+    MOST_FREQUENCY,
+    Array,
+    Motion,
+    PeriodicStroke,
+    write_whole,
+)
 
 # shortest reversal [cycles]: keeps accelerations finite
 LEAST_DURATION = 1e-3
@@ -93,7 +99,7 @@ class SunTangStroke(PeriodicStroke):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the stroke as JSON, in [Hz], [rad] and cycles, whole or not at all."""
         document = {"stroke": "sun_tang", "parameters": asdict(self)}
-        write_whole(path, json.dumps(document, indent=2) + "\n")
+        write_whole(path, json.dumps(document, indent=2) + "\n", "JSON")
 
 
 def _nearest_reversal(cycles: Array) -> tuple[Array, Array]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from flaprig.aero.loads import side_force, sweep_direction, upward
 from flaprig.aero.models import QuasiSteady
 from flaprig.aero.result import Result
 from flaprig.aero.simulate import simulate
@@ -149,20 +150,22 @@ class Evaluator(ABC):
         )
         return np.stack(parts, axis=1)
 
-    def means(self, lift: Array, side: Array, sweep_rate: Array) -> Array:
-        """Rows of Coefficients from forces in [N]. Shape (4, rows).
+    def means(self, force: Array, pitch: Array, direction: Array) -> Array:
+        """Rows of Coefficients from forces. Shape (4, rows).
 
         Args:
-            lift: upward. Shape (rows, cycles, count), the half stroke half of the count.
-            side: along the stroke plane, against increasing sweep. As lift.
-            sweep_rate: its sign makes drag of the side force. Broadcasts against it.
+            force: of the fluid in wing axes in [N]. Shape (rows, cycles, count, 3), the half stroke
+                half of the count.
+            pitch: in [rad]. Broadcasts against (rows, cycles, count).
+            direction: of the sweep, -1 to 1: makes drag of the side force. Broadcasts as pitch.
         """
+        lift, across = upward(force, pitch), side_force(force, pitch)
         half = lift.shape[-1] // 2
         first, second = lift[..., :half].mean(axis=2), lift[..., half:].mean(axis=2)
         parts = (
             0.5 * (first + second),
-            (side * np.sign(sweep_rate)).mean(axis=2),
-            side.mean(axis=2),
+            (across * direction).mean(axis=2),
+            across.mean(axis=2),
             first - second,
         )
         return np.stack([part.mean(axis=1) for part in parts]) / self.settings.reference_force
@@ -190,12 +193,10 @@ class Hover(Evaluator):
         table = np.full((4, len(shape.series)), np.nan)
         if rows.size:
             motion = motions(shape.rows(rows), self.settings.frequency, self._waves)
-            load, rate = self.wrenches(motion), motion.sweep_rate[:, None]
-            cos, sin = np.cos(motion.pitch)[:, None], np.sin(motion.pitch)[:, None]
-            chordwise, normal = load[..., 0], load[..., 2]
-            lift = sin * normal - cos * chordwise
-            side = sin * chordwise + cos * normal
-            table[:, rows] = self.means(lift, side, rate)
+            step = 1.0 / (self.settings.frequency * motion.sweep.shape[1])
+            direction = sweep_direction(motion.sweep_rate, motion.sweep_acceleration, step)
+            force = self.wrenches(motion)[..., :3]
+            table[:, rows] = self.means(force, motion.pitch[:, None], direction[:, None])
         return Coefficients(*table), {}
 
     def fly(self, coefficients: Array) -> Result:

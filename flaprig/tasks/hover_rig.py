@@ -14,6 +14,7 @@ from mujoco.batch import Batch
 from numpy.typing import NDArray
 
 from flaprig import _checks as check
+from flaprig.aero.loads import sweep_direction
 from flaprig.aero.result import Result
 from flaprig.limits import Limits
 from flaprig.motors import RIG_MOTORS, Motors
@@ -27,8 +28,6 @@ from flaprig.twin import Own, Twin
 
 Array = NDArray[np.float64]
 
-# where lift and drag are in the sensor of the fluid
-_LIFT, _DRAG = 6, 7
 # what a twin raises for a stroke that it cannot run
 _REFUSALS = (ValueError, RuntimeError, FloatingPointError)
 
@@ -132,12 +131,19 @@ class RigHover(Evaluator):
             self.states[k] = state.copy()
             if warned:
                 failures[k] = LOADS_FAILED
-        cycles = self.settings.cycles
-        sensors = sensors.reshape(count, cycles, steps // cycles, -1)
-        sensors = sensors[:, self.settings.skipped_cycles :]
-        aero = sensors[..., self._sensors[Sensor.AERO]]
-        rate = sensors[..., self._sensors[Sensor.SWEEP_VELOCITY]][..., 0]
-        return self.means(aero[..., _LIFT], aero[..., _DRAG] * np.sign(rate), rate)
+        found = {name: sensors[..., part] for name, part in self._sensors.items()}
+        rate, step = found[Sensor.SWEEP_VELOCITY][..., 0], self.model.opt.timestep
+        # sensors are those of a step's beginning
+        last = batch.qvel[:, coordinates(self.model)[1][:1]]
+        direction = sweep_direction(rate, np.diff(rate, append=last) / step, step)
+
+        def averaged(values: Array) -> Array:
+            cycles = self.settings.cycles
+            parts = values.reshape(count, cycles, steps // cycles, *values.shape[2:])
+            return np.asarray(parts[:, self.settings.skipped_cycles :])
+
+        force, pitch = found[Sensor.AERO][..., :3], found[Sensor.PITCH_ENCODER][..., 0]
+        return self.means(averaged(force), averaged(pitch), averaged(direction))
 
 
 def stroke_of(frequency: float, shape: Shapes, row: int) -> FourierStroke:

@@ -149,6 +149,8 @@ class Convergence:
         ]
         found = [simulate(RIG_WING, s, model, cycles=self.cycles).summary() for s in near]
         keys = [key for key in found[0] if key.removesuffix("_spread") in QUANTITIES]
+        # a single cycle has no spread
+        keys = [key for key in keys if found[0][key] is not None]
         return {key: float(np.mean([f[key] for f in found])) for key in keys}
 
 
@@ -185,7 +187,7 @@ def _rows(varied: Sequence[Sweep], found: Found) -> list[Row]:
         value = found[UVLM()][key]
         parts = [left_to_gain([found[m][key] for m in s.models]) for s in varied if s.refines]
         # a peak has no spread, nor has a mean over one cycle
-        spread = np.nan_to_num(found[UVLM()].get(f"{key}_spread", 0.0))
+        spread = found[UVLM()].get(f"{key}_spread", 0.0)
         total = math.sqrt(sum(part**2 for part in parts) + spread**2)
         rows.append(Row(f"{words}, numerical uncertainty [%]", 100.0 * total / abs(value)))
     return rows

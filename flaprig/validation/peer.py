@@ -192,7 +192,7 @@ class Peer:
         loads["normal"] = _normal(theirs, steps)
         loads |= {name: self._ours(rigid, **changes) for name, changes in TOWARDS.items()}
         return {
-            name: result_of(RIG_WING, STROKE, WATER, motion, rigid, each, self.cycles)
+            name: result_of(RIG_WING, STROKE, WATER, motion, each, self.cycles)
             for name, each in loads.items()
         }, apart
 

@@ -29,8 +29,11 @@ def random_wing(rng):
     if kind < 0.6:
         return Wing.beta(*(number(rng, 0.05, 0.9) for _ in range(rng.randint(3, 6))))
     count = rng.randint(0, 6)
-    radius = np.cumsum([rng.random() for _ in range(count)]).tolist() if rng.random() < 0.8 else (
-        numbers(rng, count, -1, 3))
+    radius = (
+        np.cumsum([rng.random() for _ in range(count)]).tolist()
+        if rng.random() < 0.8
+        else (numbers(rng, count, -1, 3))
+    )
     return Wing.from_table(radius, numbers(rng, count, 0, 1), numbers(rng, count, -1, 1))
 
 

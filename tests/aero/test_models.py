@@ -112,3 +112,9 @@ def test_models_are_values():
     assert QuasiSteady(DICKINSON_1999) == QuasiSteady()
     table = Coefficients.from_table([0, 1], [1, 2], [3, 4])
     assert table == Coefficients.from_table(np.array([0, 1]), (1, 2), [3.0, 4.0])
+
+
+@pytest.mark.parametrize(("chordwise", "spanwise"), [(60, 60), (64, 17), (9, 128), (33, 32)])
+def test_too_many_panels_are_counted(chordwise, spanwise):
+    with pytest.raises(ValueError, match=f"at most 1024, got {chordwise * spanwise}$"):
+        UVLM(chordwise=chordwise, spanwise=spanwise)

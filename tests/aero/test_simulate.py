@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 from flaprig.aero.air import Air
+from flaprig.aero.batch import simulate_batch
 from flaprig.aero.models import UVLM, QuasiSteady
 from flaprig.aero.result import averaged_cycles
 from flaprig.aero.rigid_motion import RigidMotion
 from flaprig.aero.simulate import mean_speed, reference_force, simulate
 from flaprig.fluid import WATER
 from flaprig.strokes import SunTangStroke
-from flaprig.wing import RIG_WING
+from flaprig.wing import RIG_WING, Wing
 
 STROKE = SunTangStroke(0.2, np.pi / 3, np.pi / 4)
 COARSE = UVLM(chordwise=3, spanwise=5, steps_per_cycle=40)
@@ -90,6 +91,46 @@ def test_progress_may_stop_the_run():
 def test_counts_are_checked(name, value):
     with pytest.raises(ValueError, match=f"simulate: {name} must be"):
         simulate(RIG_WING, STROKE, COARSE, **{name: value})
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("wing", (0.24, 0.06)), ("wing", STROKE), ("wing", None), ("wing", Wing),
+        ("stroke", lambda time: time), ("stroke", RIG_WING), ("stroke", SunTangStroke),
+        ("stroke", "s.json"), ("model", "uvlm"), ("model", QuasiSteady), ("model", 3),
+        ("fluid", "water"), ("fluid", None), ("fluid", 1000.0), ("progress", 1),
+    ],
+)  # fmt: skip
+def test_types_are_checked(name, value):
+    arguments = {"wing": RIG_WING, "stroke": STROKE, "model": COARSE} | {name: value}
+    with pytest.raises(ValueError, match=f"^simulate: {name} must be a") as caught:
+        simulate(**arguments)
+    assert "\n" not in str(caught.value)
+    if name == "progress":
+        return
+    strokes = {"strokes": [STROKE, arguments.pop("stroke")]}
+    field = r"strokes\[1\]" if name == "stroke" else name
+    with pytest.raises(ValueError, match=f"^simulate_batch: {field} must be a"):
+        simulate_batch(**arguments, **strokes)
+
+
+@pytest.mark.parametrize("strokes", [STROKE, None, 3, SunTangStroke])
+def test_a_batch_is_a_list_of_strokes(strokes):
+    with pytest.raises(ValueError, match="^simulate_batch: strokes must be a list of strokes"):
+        simulate_batch(RIG_WING, strokes, COARSE)
+
+
+def test_whole_numbers_may_be_floats():
+    once, again = (simulate(RIG_WING, STROKE, QuasiSteady(), cycles=n) for n in (2, 2.0))
+    assert again.averaged_cycles == once.averaged_cycles == (2, 2)
+    assert json.dumps(again.summary()) == json.dumps(once.summary())
+
+
+def test_summary_of_one_cycle_is_valid_json():
+    summary = simulate(RIG_WING, STROKE, QuasiSteady(), cycles=1).summary()
+    assert summary["cl_spread"] is None
+    assert json.loads(json.dumps(summary, allow_nan=False)) == summary
 
 
 class Breaking(SunTangStroke):

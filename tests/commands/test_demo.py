@@ -63,9 +63,7 @@ def test_mp4_without_ffmpeg(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 
 @pytest.mark.parametrize("drawn", ["MuJoCo", "matplotlib"])
-def test_film_by_either_means(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, drawn: str
-) -> None:
+def test_film_by_either_means(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, drawn: str) -> None:
     if drawn == "matplotlib":
         monkeypatch.setattr(gl, "backend", lambda: None)
     elif gl.backend() is None:

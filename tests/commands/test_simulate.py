@@ -33,9 +33,7 @@ def test_pitch_flip_changes_the_lift(capsys: pytest.CaptureFixture[str]) -> None
     assert abs(upright["cl"]) < 0.1 * flapping["cl"]
 
 
-def test_stroke_file_gives_the_same_run(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_stroke_file_gives_the_same_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     from flaprig.commands.options import StrokeOptions
 
     StrokeOptions().build().save(tmp_path / "stroke.json")

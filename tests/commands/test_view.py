@@ -41,9 +41,7 @@ class Window:
         yield self
 
 
-def test_window_runs_as_fast_as_the_world(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_window_runs_as_fast_as_the_world(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     window = Window(pictures=12)
     monkeypatch.setattr(mujoco.viewer, "launch_passive", window.opened)
     monkeypatch.setattr(gl, "has_display", lambda: True)

@@ -34,7 +34,6 @@ def oscillation(k, kind, chordwise, fraction):
     return amplitude(lift_of(loads, motion)) / SECTION / exact, ticked / exact
 
 
-
 @pytest.mark.parametrize("kind", ["heave", "pitch"])
 @pytest.mark.parametrize("k", [0.1, 0.5])
 def test_circulation_follows_theodorsen(k, kind):

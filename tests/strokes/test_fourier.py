@@ -7,7 +7,13 @@ from flaprig.strokes import FourierStroke, Stroke
 
 BEST = FourierStroke.normalized(
     # the optimum that the paper's reward has under these laws
-    0.2, [-1, 0, 0.06], [0, 0, 0], [0, 0, 0], [1, 0, 0.11], np.pi / 3, np.pi / 4
+    0.2,
+    [-1, 0, 0.06],
+    [0, 0, 0],
+    [0, 0, 0],
+    [1, 0, 0.11],
+    np.pi / 3,
+    np.pi / 4,
 )
 
 
@@ -120,8 +126,13 @@ def test_periodic_far_from_the_start_any_shape_and_protocol():
     ],
 )
 def test_bad_fields_give_one_sentence(changes, sentence):
-    fields = {"frequency": 0.2, "sweep_cos": [1.0], "sweep_sin": [0.0], "pitch_cos": [0.0],
-              "pitch_sin": [0.5]} | changes
+    fields = {
+        "frequency": 0.2,
+        "sweep_cos": [1.0],
+        "sweep_sin": [0.0],
+        "pitch_cos": [0.0],
+        "pitch_sin": [0.5],
+    } | changes
     with pytest.raises(ValueError, match=f"^FourierStroke: {sentence}"):
         FourierStroke(**fields)
 

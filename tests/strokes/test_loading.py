@@ -26,6 +26,20 @@ def test_saved_stroke_comes_back_bit_for_bit(stroke, tmp_path):
     assert os.listdir(tmp_path) == ["stroke.any"]
 
 
+@pytest.mark.parametrize("ending", [".csv", ".CSV", ".txt", ".npz", ".json"])
+@pytest.mark.parametrize("stroke", EXAMPLES, ids=lambda s: type(s).__name__)
+def test_an_ending_that_promises_another_form_is_refused(stroke, ending, tmp_path):
+    path, table = tmp_path / f"s{ending}", isinstance(stroke, SampledStroke)
+    if ending in ((".csv", ".CSV", ".txt") if table else (".json",)):
+        stroke.save(path)
+        assert strokes.load(path) == stroke
+        return
+    form = "CSV" if table else "JSON"
+    with pytest.raises(ValueError, match=f"must not end in .*written as {form}"):
+        stroke.save(path)
+    assert not list(tmp_path.iterdir())
+
+
 def test_failed_save_keeps_the_old_file(tmp_path, monkeypatch):
     path = tmp_path / "stroke.json"
     EXAMPLES[0].save(path)
@@ -62,17 +76,36 @@ SUN = {"frequency": 0.2, "sweep_amplitude": 1.0, "pitch_amplitude": 0.5}
         ('{"stroke": "sun_tang", "parameters": 3}', '"parameters" must be an object'),
         (json.dumps({"stroke": "sun_tang", "parameters": {}}), "missing .*frequency"),
         (json.dumps({"stroke": "sun_tang", "parameters": SUN | {"x": 1}}), r"unknown \['x'\]"),
-        (json.dumps({"stroke": "sun_tang", "parameters": SUN | {"frequency": None}}),
-         "frequency must be a positive number"),
-        (json.dumps({"stroke": "sun_tang", "parameters": SUN | {"frequency": np.nan}}),
-         "frequency must be a positive number"),
-        (json.dumps({"stroke": "fourier", "parameters": {"frequency": 1, "sweep_cos": "abc",
-                     "sweep_sin": [1], "pitch_cos": [1], "pitch_sin": {}}}), "sweep_cos must be"),
+        (
+            json.dumps({"stroke": "sun_tang", "parameters": SUN | {"frequency": None}}),
+            "frequency must be a positive number",
+        ),
+        (
+            json.dumps({"stroke": "sun_tang", "parameters": SUN | {"frequency": np.nan}}),
+            "frequency must be a positive number",
+        ),
+        (
+            json.dumps(
+                {
+                    "stroke": "fourier",
+                    "parameters": {
+                        "frequency": 1,
+                        "sweep_cos": "abc",
+                        "sweep_sin": [1],
+                        "pitch_cos": [1],
+                        "pitch_sin": {},
+                    },
+                }
+            ),
+            "sweep_cos must be",
+        ),
         ("time_s,sweep_rad,pitch_rad\n", "a log must have 8 to 2000000 rows, got 0"),
         ("time_s,sweep_rad,pitch_rad\n0,1\n", "a log must have 8 to 2000000 rows, got 1"),
         ("time_s,sweep_rad,pitch_rad\n0,1,2\n0,x,2\n", "a log must have 8 to 2000000 rows, got 2"),
-        ("time_s,sweep_rad,pitch_rad\n" + "0,1,nan\n" * 9,
-         "line 2: pitch_rad must be a finite number, got 'nan'"),
+        (
+            "time_s,sweep_rad,pitch_rad\n" + "0,1,nan\n" * 9,
+            "line 2: pitch_rad must be a finite number, got 'nan'",
+        ),
     ],
 )
 def test_malformed_file_gives_one_sentence(text, sentence, tmp_path):

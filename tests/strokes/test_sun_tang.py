@@ -22,8 +22,12 @@ strokes = st.builds(
 def away_from_flip_ends(stroke, margin=1e-3):
     """Phases of one cycle that keep off every instant where a derivative jumps."""
     phase = (np.arange(400) + 0.37) / 400
-    ends = [c + s * d / 2 for c in (0.0, 0.5, 1.0) for s in (-1, 1)
-            for d in (stroke.sweep_duration, stroke.pitch_duration)]
+    ends = [
+        c + s * d / 2
+        for c in (0.0, 0.5, 1.0)
+        for s in (-1, 1)
+        for d in (stroke.sweep_duration, stroke.pitch_duration)
+    ]
     return phase[np.min(np.abs(phase[:, None] - ends), axis=1) > margin] / stroke.frequency
 
 
@@ -77,8 +81,11 @@ def test_peak_accelerations_of_the_rig():
     w = 2 * np.pi * 0.2
     assert peaks(SINUSOID) == pytest.approx((w**2 * np.pi / 3, w**2 * np.pi / 4), rel=1e-12)
     assert peaks(SINUSOID) == pytest.approx((1.654, 1.240), abs=5e-4)
-    nine = [peaks(SunTangStroke(0.2, np.pi / 3, np.pi / 4, d_phi, d_theta))
-            for d_phi in DURATIONS for d_theta in DURATIONS]
+    nine = [
+        peaks(SunTangStroke(0.2, np.pi / 3, np.pi / 4, d_phi, d_theta))
+        for d_phi in DURATIONS
+        for d_theta in DURATIONS
+    ]
     assert np.max(nine, axis=0) == pytest.approx((3.7227565, 12.1118268), rel=1e-5)
 
 

@@ -58,6 +58,13 @@ def test_motors_cost_little_and_something() -> None:
     assert abs(rig.reference_ratio / prescribed.reference_ratio - 1.0) > 1e-5
 
 
+def test_drag_does_not_jump_while_reversals_move_over_samples() -> None:
+    """L/D bends 200 times as much where the sign of the rate makes drag."""
+    moved = np.array(SINUSOID_COEFFICIENTS) + np.linspace(0.0, 0.02, 21)[:, None] * np.eye(12)[3]
+    found = RigHover(settings(time_step=0.01)).evaluate(moved).coefficients
+    assert np.abs(np.diff(found.cl / found.cd, 2)).max() < 3e-5
+
+
 def test_stroke_that_the_rig_refuses_fails_alone() -> None:
     """Sweep stops are at 90 degrees; the link's rounding does not matter to the others."""
     hover = RigHover(settings(link=ServoLink(counts=4096)))
