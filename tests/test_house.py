@@ -34,7 +34,7 @@ FLOOR = {room: level for level, rooms in enumerate(FLOORS) for room in rooms}
 
 # third parties and the only places that may import them, as prefixes of the path
 ONLY_IN = {
-    "ruckig": ("flaprig/limits/ruckig_filter.py",),
+    "ruckig": ("flaprig/limits/ruckig_motion.py",),
     "clarabel": ("flaprig/limits/programme.py",),
     "gymnasium": ("flaprig/envs",),
     "dm_control": ("flaprig/tasks", "flaprig/envs"),
