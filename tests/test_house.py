@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # a new file or folder in flaprig/ gets its name here
 FLOORS = (
     ("_checks", "_paths", "files", "planform", "wing", "fluid", "strokes", "theory"),
-    ("native", "aero"),
+    ("native", "aero", "render"),
     ("limits", "logs"),
     (
         *("motors", "motor_histories", "motor_record", "rig", "energy"),

@@ -11,7 +11,7 @@ from tyro.conf import arg
 
 from flaprig import _checks as check
 from flaprig.commands import options
-from flaprig.report import gl
+from flaprig.render import gl
 from flaprig.report.folder import Folder
 
 if TYPE_CHECKING:
