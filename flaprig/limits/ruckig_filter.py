@@ -169,14 +169,11 @@ class RuckigFilter:
         """One interval along the stroke."""
         assert self._reference is not None
         target = self._reference.at(self.ticks)
-        motion = self._planner.exact(self.state, target, self.interval)
-        self._motion, self._began = motion, self.ticks - 1
-        if motion is not None:
-            self.state = motion.state(self.interval)
-            return
-
+        self._motion = self._planner.exact(self.state, target, self.interval)
+        self._began = self.ticks - 1
         # the reference keeps the limits by itself
-        self.state, self.replaced = target, self.replaced + 1
+        self.replaced += self._motion is None
+        self.state = target
 
     def _arrive(self) -> None:
         if self.mode is Mode.STOPPING:

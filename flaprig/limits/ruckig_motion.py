@@ -72,6 +72,9 @@ class Planner:
             (limits.ranges(bound)[:, 1] * (1.0 + WIDER)).tolist()
             for bound in (Bound.VELOCITY, Bound.ACCELERATION, Bound.JERK)
         ]
+        self._joint_bounds = tuple(zip(*self._bounds, strict=True))
+        # largest rates of the motion last planned, by joint
+        self._speeds = self._joint_bounds[0][0], self._joint_bounds[1][0]
         self._rounding = MET + ROUNDING / interval**2
         self._ruckig = Ruckig(2, interval)
         self._way, self._brake = InputParameter(2), InputParameter(2)
@@ -100,7 +103,10 @@ class Planner:
             end = motion.at_time(duration)
             for joint in (0, 1):
                 if found[joint] is None and self._met(end, target, joint):
-                    found[joint] = motion if self._keeps_range(motion, joint) else None
+                    # most ticks along a stroke are too short to reach an end of the range
+                    angle, way = state.position[joint], self._speeds[joint] * duration
+                    near = self._allowed(joint, angle - way, angle + way)
+                    found[joint] = motion if near or self._keeps_range(motion, joint) else None
             sweep, pitch = found
             if sweep is not None and pitch is not None:
                 return PlannedMotion((sweep, pitch), duration)
@@ -115,14 +121,13 @@ class Planner:
         asked.target_velocity = target.velocity
         asked.target_acceleration = target.acceleration
         asked.minimum_duration = duration
-        pairs = zip(*(self._capped(state, target, duration, reach, i) for i in (0, 1)), strict=True)
-        asked.max_velocity, asked.max_acceleration, asked.max_jerk = pairs
+        sweep = self._capped(state, target, duration, reach, 0)
+        pitch = self._capped(state, target, duration, reach, 1)
+        self._speeds = sweep[0], pitch[0]
+        asked.max_velocity = self._speeds
+        asked.max_acceleration = sweep[1], pitch[1]
+        asked.max_jerk = sweep[2], pitch[2]
         return self._calculate(asked, state)
-
-    def met(self, reached: State, target: State) -> bool:
-        """Whether a state is another one but for rounding."""
-        parts = (reached.position, reached.velocity, reached.acceleration)
-        return all(self._met(parts, target, joint) for joint in (0, 1))
 
     def inside(self, posture: Pair) -> bool:
         """Whether both angles in [rad] are inside the joints' range."""
@@ -135,7 +140,7 @@ class Planner:
         60 D/T^3; a brake comes before it.
         """
         trips = [0.0]
-        for joint, (speed, acceleration, jerk) in enumerate(zip(*self._bounds, strict=True)):
+        for joint, (speed, acceleration, jerk) in enumerate(self._joint_bounds):
             way = abs(posture[joint] - state.position[joint])
             rate, push = abs(state.velocity[joint]), abs(state.acceleration[joint])
             brake = 2.0 * (rate / acceleration + push / jerk + sqrt(rate / jerk))
@@ -152,7 +157,7 @@ class Planner:
         self, state: State, target: State, duration: float, reach: float, joint: int
     ) -> tuple[float, float, float]:
         """Bounds on velocity, acceleration and jerk of one joint, no wider than can be used."""
-        speed, acceleration, jerk = (bound[joint] for bound in self._bounds)
+        speed, acceleration, jerk = self._joint_bounds[joint]
         way = abs(target.position[joint] - state.position[joint])
         rate = abs(state.velocity[joint]) + abs(target.velocity[joint])
         push = abs(state.acceleration[joint]) + abs(target.acceleration[joint])
@@ -178,13 +183,11 @@ class Planner:
         return motion if result in (Result.Working, Result.Finished) else None
 
     def _met(self, reached: Any, target: State, joint: int) -> bool:
-        position, velocity, acceleration = (part[joint] for part in reached)
-        angle, rate = target.position[joint], target.velocity[joint]
-        push = target.acceleration[joint]
-        return (
-            abs(position - angle) <= MET
-            and abs(velocity - rate) <= MET + SHARE * abs(rate)
-            and abs(acceleration - push) <= self._rounding + SHARE * abs(push)
+        rate, push = target.velocity[joint], target.acceleration[joint]
+        return bool(
+            abs(reached[0][joint] - target.position[joint]) <= MET
+            and abs(reached[1][joint] - rate) <= MET + SHARE * abs(rate)
+            and abs(reached[2][joint] - push) <= self._rounding + SHARE * abs(push)
         )
 
     def _keeps_range(self, motion: Trajectory, joint: int) -> bool:

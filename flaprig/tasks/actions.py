@@ -40,6 +40,6 @@ def checked_actions(
         raise ValueError(f"{owner}: action must be {allowed}, got shape {raw.shape}")
 
     values = np.array(raw, dtype=np.float64)
-    broken = ~np.isfinite(values).all(axis=-1)
+    broken = np.asarray(~np.isfinite(values).all(axis=-1))
     values[broken] = 0.0
     return np.clip(values, -1.0, 1.0), broken

@@ -73,7 +73,8 @@ class RigPhysics(Physics):
     def _take_over(self, data: mujoco.MjData, kept: dict[str, Any]) -> None:
         # Physics computes what follows from the state anew, with the motors off
         mujoco.mj_copyData(self.data.ptr, self.model.ptr, data)
-        vars(self).update(kept)
+        for name, value in kept.items():
+            setattr(self, name, value)
 
     def _make_rendering_contexts(self) -> None:
         """As Physics, with a library that works here; dm_control takes the first it can import.
