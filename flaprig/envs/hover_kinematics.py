@@ -84,5 +84,5 @@ class HoverKinematics(HoverEnv):
         render_mode: str | None = None,
         **changes: Any,
     ) -> None:
-        start = HoverSettings() if settings is None else settings
-        super().__init__(changed("HoverKinematics", start, changes), render_mode)
+        chosen = changed("HoverKinematics", HoverSettings, settings, changes)
+        super().__init__(chosen, render_mode)

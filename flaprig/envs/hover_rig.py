@@ -83,5 +83,5 @@ class HoverRig(HoverEnv):
         render_mode: str | None = None,
         **changes: Any,
     ) -> None:
-        start = HoverRigSettings() if settings is None else settings
-        super().__init__(changed("HoverRig", start, changes, "problem"), render_mode)
+        chosen = changed("HoverRig", HoverRigSettings, settings, changes, inner="problem")
+        super().__init__(chosen, render_mode)

@@ -103,7 +103,7 @@ class TrackStroke(RigEnv):
         super().__init__(render_mode)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (ACTIONS,), np.float32)
         self.observation_space = gymnasium.spaces.Box(-_MOST, _MOST, (_SIZE,), np.float32)
-        kwargs = {"settings": _settings(settings or TrackSettings(), changes)}
+        kwargs = {"settings": _settings(settings, changes)}
         self._environment = load("track", "stroke", kwargs, {"flat_observation": True})
 
     @property
@@ -173,15 +173,15 @@ def _flat(step: Any) -> NDArray[np.float32]:
     return np.asarray(values, dtype=np.float32)
 
 
-def _settings(settings: TrackSettings, changes: dict[str, Any]) -> TrackSettings:
+def _settings(settings: TrackSettings | None, changes: dict[str, Any]) -> TrackSettings:
     """Settings with changes by name, where `horizon` stands for the cycles that it takes."""
-    if "horizon" not in changes:
-        return changed("TrackStroke", settings, changes)
-
     rest = {name: value for name, value in changes.items() if name != "horizon"}
+    found = changed("TrackStroke", TrackSettings, settings, rest, more=("horizon",))
+    if "horizon" not in changes:
+        return found
+
     if "cycles" in rest:
         allowed = "given without cycles, which say the same"
         raise check.fail("TrackStroke", "horizon", allowed, changes["horizon"])
     horizon = check.whole("TrackStroke", "horizon", changes["horizon"], 1, MOST_HORIZON)
-    settings = changed("TrackStroke", settings, rest)
-    return replace(settings, cycles=horizon * settings.stroke.frequency * settings.control_interval)
+    return replace(found, cycles=horizon * found.stroke.frequency * found.control_interval)

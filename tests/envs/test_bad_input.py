@@ -152,6 +152,9 @@ def test_wrong_keywords_are_one_sentence(name: str) -> None:
     for value in (0, 2.5, "ten"):
         with pytest.raises(ValueError, match="horizon must be a whole number from 1 to 1000000"):
             gymnasium.make(name, horizon=value)
+    for settings in (1, "quick", {"horizon": 10}, TrackSettings):
+        with pytest.raises(ValueError, match=rf"^{owner}: settings must be a \w+Settings, got"):
+            gymnasium.make(name, settings=settings)
     with pytest.raises(ValueError, match="cycles must be"):
         gymnasium.make(name, cycles=-1)
 
