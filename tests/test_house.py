@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # a new file or folder in flaprig/ gets its name here
 FLOORS = (
     ("_checks", "_paths", "files", "planform", "wing", "fluid", "strokes", "theory"),
-    ("native", "aero"),
+    ("native", "aero", "render"),
     ("limits", "logs"),
     (
         *("motors", "motor_histories", "motor_record", "rig", "energy"),
@@ -34,7 +34,7 @@ FLOOR = {room: level for level, rooms in enumerate(FLOORS) for room in rooms}
 
 # third parties and the only places that may import them, as prefixes of the path
 ONLY_IN = {
-    "ruckig": ("flaprig/limits/ruckig_filter.py",),
+    "ruckig": ("flaprig/limits/ruckig_motion.py",),
     "clarabel": ("flaprig/limits/programme.py",),
     "gymnasium": ("flaprig/envs",),
     "dm_control": ("flaprig/tasks", "flaprig/envs"),

@@ -17,14 +17,16 @@ from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvO
 
 from flaprig import _checks as check
 from flaprig.envs.spaces import action_space, observation_space
+from flaprig.tasks.actions import checked_actions
+from flaprig.tasks.copies import Copied
 from flaprig.tasks.hover_batch import HoverBatch, Step
-from flaprig.tasks.hover_settings import HoverSettings
+from flaprig.tasks.hover_settings import COEFFICIENTS, HoverSettings
 
 if TYPE_CHECKING:
     from flaprig.tasks.hover_rig import HoverRigSettings
 
 
-class HoverVecEnv(VecEnv):
+class HoverVecEnv(Copied, VecEnv):
     """Hovering episodes that begin anew by themselves; all are simulated in one call.
 
     An info holds what HoverKinematics' does; at an episode's end also `terminal_observation`,
@@ -54,6 +56,7 @@ class HoverVecEnv(VecEnv):
         self.returns: NDArray[np.float64] = np.zeros(count)
         self.started = time.time()
         self._actions: NDArray[np.float64] | None = None
+        self._begun = False
         if seed is not None:
             self.seed(seed)
 
@@ -70,17 +73,31 @@ class HoverVecEnv(VecEnv):
         self._reset_seeds()
         self._reset_options()
         self.returns[:] = 0.0
+        self._begun = True
         self.reset_infos = [{} for _ in range(self.num_envs)]
         return self.batch.reset(np.arange(self.num_envs), self.generators).astype(np.float32)
 
     def step_async(self, actions: NDArray[Any]) -> None:
-        """Keep the actions for `step_wait`. Shape (num_envs, 12)."""
+        """Keep the actions for `step_wait`. Shape (num_envs, 12).
+
+        A row that is not finite ends its episode, with `failure` in its info.
+
+        Raises:
+            ValueError: actions of another shape.
+            RuntimeError: reset was never called.
+        """
+        if not self._begun:
+            raise RuntimeError(
+                "HoverVecEnv.step: reset() must be called first, got step() before the first reset"
+            )
+        checked_actions("HoverVecEnv.step", actions, (self.num_envs, COEFFICIENTS))
         self._actions = np.asarray(actions)
 
     def step_wait(self) -> VecEnvStepReturn:
         """Fly the new strokes; finished episodes begin anew."""
-        assert self._actions is not None, "step_async comes first"
-        step = self.batch.step(self._actions)
+        if self._actions is None:
+            raise RuntimeError("HoverVecEnv.step_wait: step_async() must be called first")
+        step, self._actions = self.batch.step(self._actions), None
         infos = step.infos()
         observation = step.observation.astype(np.float32)
         self.returns += step.reward
@@ -124,6 +141,7 @@ class HoverVecEnv(VecEnv):
         self.batch.coefficients = np.array(state["coefficients"], dtype=np.float64)
         self.batch.elapsed = np.array(state["elapsed"], dtype=np.int64)
         self.returns = np.array(state["returns"], dtype=np.float64)
+        self._begun = True
         for generator, kept in zip(self.generators, state["generators"], strict=True):
             generator.bit_generator.state = kept
 

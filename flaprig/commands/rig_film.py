@@ -7,7 +7,8 @@ from pathlib import Path
 
 from flaprig.aero.models import UVLM
 from flaprig.commands.progress import progress
-from flaprig.report import gl, video
+from flaprig.render import gl
+from flaprig.report import video
 from flaprig.report.animation import animate
 from flaprig.report.film import Format, film, instants
 from flaprig.report.flight import Flight

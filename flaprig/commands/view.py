@@ -12,7 +12,7 @@ from tyro.conf import arg
 
 from flaprig import _checks as check
 from flaprig.commands import options
-from flaprig.report import gl
+from flaprig.render import gl
 from flaprig.report.folder import Folder
 from flaprig.report.table import print_notices
 

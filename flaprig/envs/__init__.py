@@ -24,7 +24,10 @@ _ROOMS = {
 }
 
 for _name, (_room, _id) in _ROOMS.items():
-    gymnasium.register(_id, f"flaprig.envs.{_room}:{_name}")
+    # they say themselves what is called too early or too late, and wrappers would share on a copy
+    gymnasium.register(
+        _id, f"flaprig.envs.{_room}:{_name}", order_enforce=False, disable_env_checker=True
+    )
 
 
 def __getattr__(name: str) -> Any:

@@ -4,36 +4,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from flaprig import _checks as check
+from flaprig.envs.rig_env import PICTURE, RigEnv
 from flaprig.envs.spaces import Numbers, action_space, observation_space
 from flaprig.strokes.fourier import FourierStroke
+from flaprig.tasks.actions import checked_actions
 from flaprig.tasks.hover_batch import HoverBatch
-from flaprig.tasks.hover_settings import HoverSettings
+from flaprig.tasks.hover_settings import COEFFICIENTS, HoverSettings
 
 if TYPE_CHECKING:
     from flaprig.tasks.hover_rig import HoverRigSettings
     from flaprig.tasks.hover_task import HoverPhysics
 
-# pictures: height and width in pixels
-PICTURE = (480, 640)
 
-
-class HoverEnv(gymnasium.Env[Numbers, Numbers]):
+class HoverEnv(RigEnv):
     """What HoverKinematics and HoverRig share."""
-
-    # gymnasium declares it for instances
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 10}  # noqa: RUF012
 
     def __init__(
         self, settings: HoverSettings | HoverRigSettings, render_mode: str | None = None
     ) -> None:
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            raise check.fail(type(self).__name__, "render_mode", "None or rgb_array", render_mode)
-        self.render_mode = render_mode
+        super().__init__(render_mode)
         self.action_space = action_space()
         self.observation_space = observation_space()
         self.batch = HoverBatch(settings, 1)
@@ -55,12 +47,21 @@ class HoverEnv(gymnasium.Env[Numbers, Numbers]):
         """Begin a new episode; no options are known."""
         super().reset(seed=seed)
         observation = self.batch.reset([0], [self.np_random])
+        self._begin()
         info = {"coefficients": self.batch.coefficients[0].copy()}
         return observation[0].astype(np.float32), info
 
     def step(self, action: Numbers) -> tuple[Numbers, float, bool, bool, dict[str, Any]]:
-        """Change the stroke and judge it."""
+        """Change the stroke and judge it; an action that is not finite ends the episode.
+
+        Raises:
+            ValueError: an action of another shape.
+            NoEpisodeError: before reset, or after the episode's end.
+        """
+        self._require_episode("step")
+        checked_actions(f"{type(self).__name__}.step", action, (COEFFICIENTS,))
         step = self.batch.step(np.asarray(action)[None])
+        self._ended = bool(step.terminated[0] or step.truncated[0])
         return (
             step.observation[0].astype(np.float32),
             float(step.reward[0]),
@@ -70,9 +71,15 @@ class HoverEnv(gymnasium.Env[Numbers, Numbers]):
         )
 
     def render(self) -> NDArray[np.uint8] | None:
-        """A picture of the rig in the middle of the stroke, or where the motors left it."""
+        """A picture of the rig in the middle of the stroke, or where the motors left it.
+
+        Raises:
+            NoEpisodeError: before reset.
+            RuntimeError: no OpenGL library works here; the sentence says what to install.
+        """
         if self.render_mode is None:
             return None
+        self._require_episode("render", ended_too=False)
         if self._physics is None:
             # MuJoCo and OpenGL only for those who look
             from flaprig.tasks.hover_task import HoverPhysics

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from flaprig.envs.hover_env import HoverEnv
+from flaprig.envs.keywords import changed
 from flaprig.tasks.hover_settings import HoverSettings
 
 
@@ -54,18 +57,20 @@ class HoverKinematics(HoverEnv):
 
     ## Episode End
 
-    - Termination: an acceleration exceeds its bound (equation 13), or the simulation failed.
+    - Termination: an acceleration exceeds its bound (equation 13), the simulation failed, or
+      the action was not finite.
     - Truncation: `horizon` actions, 50 by default.
 
     ## Arguments
 
     `settings`: a `flaprig.tasks.HoverSettings`, with the model of the air (quasi-steady by default,
     or `flaprig.UVLM`), the wing, the fluid, the stroke's frequency and amplitudes, the bounds, the
-    weights of the reward, `step_size`, `horizon` and `jitter`.
+    weights of the reward, `step_size`, `horizon` and `jitter`. Each setting is also a
+    keyword of its own, which overrides `settings`.
 
     ```python
     import gymnasium, flaprig.envs
-    env = gymnasium.make("flaprig/HoverKinematics-v0")
+    env = gymnasium.make("flaprig/HoverKinematics-v0", horizon=20, jitter=0.02)
     ```
 
     ## Version History
@@ -74,6 +79,10 @@ class HoverKinematics(HoverEnv):
     """
 
     def __init__(
-        self, settings: HoverSettings | None = None, render_mode: str | None = None
+        self,
+        settings: HoverSettings | None = None,
+        render_mode: str | None = None,
+        **changes: Any,
     ) -> None:
-        super().__init__(HoverSettings() if settings is None else settings, render_mode)
+        chosen = changed("HoverKinematics", HoverSettings, settings, changes)
+        super().__init__(chosen, render_mode)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from flaprig.envs.hover_env import HoverEnv
+from flaprig.envs.keywords import changed
 from flaprig.tasks.hover_rig import HoverRigSettings
 
 
@@ -54,18 +57,19 @@ class HoverRig(HoverEnv):
 
     ## Episode End
 
-    - Termination: an acceleration exceeds its bound (equation 13), the rig refuses the stroke, or
-      MuJoCo gives up.
+    - Termination: an acceleration exceeds its bound (equation 13), the rig refuses the stroke,
+      MuJoCo gives up, or the action was not finite.
     - Truncation: `horizon` actions, 50 by default.
 
     ## Arguments
 
     `settings`: a `flaprig.tasks.HoverRigSettings`: the `problem` (a `HoverSettings`), the `motors`,
-    MuJoCo's `time_step`, `feedforward`, the `limits` and the `link` to the servos.
+    MuJoCo's `time_step`, `feedforward`, the `limits` and the `link` to the servos. Each setting,
+    the problem's too, is also a keyword of its own, which overrides `settings`.
 
     ```python
     import gymnasium, flaprig.envs
-    env = gymnasium.make("flaprig/HoverRig-v0")
+    env = gymnasium.make("flaprig/HoverRig-v0", horizon=20, jitter=0.02)
     ```
 
     ## Version History
@@ -74,6 +78,10 @@ class HoverRig(HoverEnv):
     """
 
     def __init__(
-        self, settings: HoverRigSettings | None = None, render_mode: str | None = None
+        self,
+        settings: HoverRigSettings | None = None,
+        render_mode: str | None = None,
+        **changes: Any,
     ) -> None:
-        super().__init__(HoverRigSettings() if settings is None else settings, render_mode)
+        chosen = changed("HoverRig", HoverRigSettings, settings, changes, inner="problem")
+        super().__init__(chosen, render_mode)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import gymnasium
@@ -9,18 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flaprig import _checks as check
+from flaprig.envs.keywords import changed
+from flaprig.envs.rig_env import PICTURE, RigEnv
 from flaprig.envs.spaces import Numbers
+from flaprig.tasks.actions import checked_actions
 from flaprig.tasks.suite import load
 from flaprig.tasks.track import ACTIONS, Track
 from flaprig.tasks.track_settings import TrackSettings
 
 # numbers in an observation, and the size that they are clipped to
 _SIZE, _MOST = 27, 100.0
-# pictures: height and width in pixels
-PICTURE = (480, 640)
+# most actions in an episode
+MOST_HORIZON = 1_000_000
 
 
-class TrackStroke(gymnasium.Env[Numbers, Numbers]):
+class TrackStroke(RigEnv):
     """
     ## Description
 
@@ -56,10 +60,11 @@ class TrackStroke(gymnasium.Env[Numbers, Numbers]):
     ## Rewards
 
     From 0 to 1: the product of both joints' `dm_control` tolerance, 1 for an error below `close`
-    (1 mrad), a tenth at `margin` (20 mrad) beyond it. 0 when MuJoCo gives up.
+    (1 mrad), a tenth at `margin` (20 mrad) beyond it. 0 when MuJoCo gives up, and for an action
+    that is NaN or infinite.
 
     `info` holds `sweep_error` and `pitch_error` in rad, `lift` and `drag` in N, `power` in W, and
-    `failure` (a sentence) when MuJoCo gave up.
+    `failure` (a sentence) when MuJoCo gave up or the action was not finite.
 
     ## Starting State
 
@@ -67,17 +72,18 @@ class TrackStroke(gymnasium.Env[Numbers, Numbers]):
 
     ## Episode End
 
-    - Termination: an error exceeds `lost` (0.5 rad), or MuJoCo gave up.
+    - Termination: an error exceeds `lost` (0.5 rad), MuJoCo gave up, or the action was not finite.
     - Truncation: `cycles` cycles of the stroke, 2 by default: 500 actions.
 
     ## Arguments
 
     `settings`: a `flaprig.tasks.TrackSettings`: the rig, the stroke, the control interval, ranges,
-    disturbance and margins.
+    disturbance and margins. Each setting is also a keyword of its own, which overrides `settings`;
+    `horizon`, the number of actions, sets `cycles`.
 
     ```python
     import gymnasium, flaprig.envs
-    env = gymnasium.make("flaprig/Track-v0")
+    env = gymnasium.make("flaprig/Track-v0", horizon=100, disturbance=(0.1, 0.05))
     ```
 
     ## Version History
@@ -89,14 +95,15 @@ class TrackStroke(gymnasium.Env[Numbers, Numbers]):
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}  # noqa: RUF012
 
     def __init__(
-        self, settings: TrackSettings | None = None, render_mode: str | None = None
+        self,
+        settings: TrackSettings | None = None,
+        render_mode: str | None = None,
+        **changes: Any,
     ) -> None:
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            raise check.fail("TrackStroke", "render_mode", "None or rgb_array", render_mode)
-        self.render_mode = render_mode
+        super().__init__(render_mode)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (ACTIONS,), np.float32)
         self.observation_space = gymnasium.spaces.Box(-_MOST, _MOST, (_SIZE,), np.float32)
-        kwargs = {"settings": settings}
+        kwargs = {"settings": _settings(settings, changes)}
         self._environment = load("track", "stroke", kwargs, {"flat_observation": True})
 
     @property
@@ -111,19 +118,34 @@ class TrackStroke(gymnasium.Env[Numbers, Numbers]):
         """Begin a new episode; no options are known."""
         super().reset(seed=seed)
         self._task.random = self.np_random
+        self._begin()
         return _flat(self._environment.reset()), self._info()
 
     def step(self, action: Numbers) -> tuple[Numbers, float, bool, bool, dict[str, Any]]:
-        """One control interval."""
+        """One control interval; an action that is not finite ends the episode.
+
+        Raises:
+            ValueError: an action of another shape.
+            NoEpisodeError: before reset, or after the episode's end.
+        """
+        self._require_episode("step")
+        checked_actions("TrackStroke.step", action, (ACTIONS,))
         step = self._environment.step(action)
         terminated = step.last() and step.discount == 0.0
         truncated = step.last() and not terminated
+        self._ended = step.last()
         return _flat(step), float(step.reward), terminated, truncated, self._info()
 
     def render(self) -> NDArray[np.uint8] | None:
-        """A picture of the rig."""
+        """A picture of the rig.
+
+        Raises:
+            NoEpisodeError: before reset.
+            RuntimeError: no OpenGL library works here; the sentence says what to install.
+        """
         if self.render_mode is None:
             return None
+        self._require_episode("render", ended_too=False)
         return np.array(self._environment.physics.render(*PICTURE, camera_id="iso"))
 
     def close(self) -> None:
@@ -149,3 +171,17 @@ def _flat(step: Any) -> NDArray[np.float32]:
     # dm_control's name for its one flat observation
     values = np.clip(step.observation["observations"], -_MOST, _MOST)
     return np.asarray(values, dtype=np.float32)
+
+
+def _settings(settings: TrackSettings | None, changes: dict[str, Any]) -> TrackSettings:
+    """Settings with changes by name, where `horizon` stands for the cycles that it takes."""
+    rest = {name: value for name, value in changes.items() if name != "horizon"}
+    found = changed("TrackStroke", TrackSettings, settings, rest, more=("horizon",))
+    if "horizon" not in changes:
+        return found
+
+    if "cycles" in rest:
+        allowed = "given without cycles, which say the same"
+        raise check.fail("TrackStroke", "horizon", allowed, changes["horizon"])
+    horizon = check.whole("TrackStroke", "horizon", changes["horizon"], 1, MOST_HORIZON)
+    return replace(found, cycles=horizon * found.stroke.frequency * found.control_interval)

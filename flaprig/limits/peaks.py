@@ -34,6 +34,8 @@ SECTIONS = 56
 HALVINGS, JUMP = 9, 4.0
 # a bound is broken when it is exceeded by this share of its size
 TOLERANCE = 1e-9
+# rounding of angles, as a share of them: in a narrow range far from 0 it is more than the other
+ROUNDING = 2e-14
 
 _GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 
@@ -136,7 +138,7 @@ def violations(
         for bound in Bound:
             low, high = allowed.range_of(bound)
             least, most = need.position if bound is Bound.POSITION else (-0.0, getattr(need, bound))
-            room = tolerance * 0.5 * (high - low)
+            room = max(tolerance * 0.5 * (high - low), ROUNDING * max(abs(low), abs(high)))
             if most > high + room:
                 broken.append(Violation(joint, bound, most, high))
             elif least < low - room:

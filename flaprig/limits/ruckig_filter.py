@@ -1,11 +1,10 @@
-"""Set points for the servos within their limits, one for each control interval, made by Ruckig.
+"""Set points for the servos within their limits, one for each control interval.
 
-L. Berscheid & T. Kroeger, Jerk-limited Real-time Trajectory Generation with Arbitrary Target
-States, Robotics: Science and Systems (2021). The only file that imports ruckig. Ruckig knows no
-moving target: to get onto a stroke, the earliest instant is searched at which a motion of exactly
-that duration meets the stroke's angle, rate and acceleration; from there on the stroke is followed
-from interval to interval with `minimum_duration`. A stroke beyond the limits is refused: followed
-naively it would swing out by more than its own amplitude.
+Ruckig knows no moving target: to get onto a stroke, the earliest instant is searched at which a
+motion of exactly that duration meets the stroke's angle, rate and acceleration; from there on the
+stroke is followed from interval to interval. A stroke beyond the limits is refused: followed
+naively it would swing out by more than its own amplitude. The motions themselves are in
+`ruckig_motion.py`.
 """
 
 from __future__ import annotations
@@ -13,34 +12,21 @@ from __future__ import annotations
 from math import ceil
 
 import numpy as np
-from ruckig import (
-    ControlInterface,
-    InputParameter,
-    Result,
-    Ruckig,
-    RuckigError,
-    Synchronization,
-    Trajectory,
-)
 
 from flaprig import _checks as check
-from flaprig.limits.intercept import earliest
+from flaprig.limits.intercept import STRIDES, earliest
 from flaprig.limits.limits import Bound, Limits
 from flaprig.limits.peaks import check_limits, violations
 from flaprig.limits.reference import Mode, Reference, State
+from flaprig.limits.ruckig_motion import MET, PlannedMotion, Planner
 from flaprig.strokes.stroke import Stroke, check_stroke
 
 # control interval [s]: of a servo bus at a usual rate, 1 kHz
 INTERVAL = 1e-3
 LEAST_INTERVAL, MOST_INTERVAL = 1e-5, 0.1
-# Ruckig gets bounds wider by this share, so that a reference on a bound is not refused for rounding
-WIDER = 5e-10
-# a duration [s], an angle [rad] or a rate [rad/s] counts as met within this
-MET = 1e-12
-# rounding of an angle [rad]: over the interval squared, that of an acceleration
-ROUNDING = 1e-15
-# longest search, in cycles of the stroke and in times of a plain motion to its first posture
-MOST_CYCLES, MOST_TRIPS = 2, 4
+# longest search, in cycles of the stroke, in times of a plain motion to its first posture, and in
+# intervals
+MOST_CYCLES, MOST_TRIPS, MOST_TICKS = 2, 4, 5_000_000
 
 
 class RuckigFilter:
@@ -73,25 +59,24 @@ class RuckigFilter:
         owner = "RuckigFilter"
         check_limits(owner, limits)
         self.limits = limits
-        self._range = limits.ranges(Bound.POSITION).tolist()
         args = (owner, "interval", interval, LEAST_INTERVAL, MOST_INTERVAL, "s")
         self.interval = check.in_range(*args)
         angles = check.array(owner, "posture", posture, "rad", length=2)
-        if not self._allowed(angles.tolist(), angles.tolist()):
+        self._planner = Planner(limits, self.interval)
+        if not self._planner.inside((float(angles[0]), float(angles[1]))):
             allowed = f"inside the range {limits.ranges(Bound.POSITION).tolist()} in rad"
             raise check.fail(owner, "posture", allowed, angles.tolist())
         self.state = State.at_rest((float(angles[0]), float(angles[1])))
         self.mode, self.ticks, self.joins_at, self.replaced = Mode.RESTING, 0, 0.0, 0
-        self._ruckig = Ruckig(2, self.interval)
-        self._input, self._brake = _inputs(limits)
         # the motion under way and the ticks at which it begins and ends
-        self._motion: Trajectory | None = None
+        self._motion: PlannedMotion | None = None
         self._began, self._ends = 0, 0
         self._reference: Reference | None = None
         # motion and begin of the interval just gone, for `within`
-        self._gone: tuple[Trajectory | None, int] = (None, 0)
+        self._gone: tuple[PlannedMotion | None, int] = (None, 0)
         self._accepted: list[Stroke] = []
-        self._stop_asked = False
+        # the last tick at which a stop that was asked for begins; None: none was
+        self._stop_by: int | None = None
 
     @property
     def time(self) -> float:
@@ -134,18 +119,24 @@ class RuckigFilter:
         reference = Reference(stroke, start, self.interval)
         length = self._earliest(reference)
         target = reference.at(self.ticks + length)
-        self._begin(Mode.JOINING, self._to(target, length * self.interval), length)
-        self._reference, self._stop_asked = reference, False
+        motion = self._planner.exact(self.state, target, length * self.interval)
+        self._begin(Mode.JOINING, motion, length)
+        self._reference, self._stop_by = reference, None
         self.joins_at = self._ends * self.interval
         return self.joins_at
 
     def stop(self) -> None:
-        """Come to rest as early as the limits allow; where the brake would leave the joints' range
-        it begins later.
+        """Come to rest as early as the limits allow.
+
+        Where the brake would leave the joints' range it begins later, within a cycle.
+
+        Raises:
+            RuntimeError: it would leave the range all over the cycle; the stroke goes on.
         """
         if self.mode in (Mode.JOINING, Mode.FOLLOWING):
-            self._stop_asked = True
-            self._try_to_stop()
+            self._stop_by = self.ticks
+            if not self._brakes():
+                self._stop_by = self._last_chance()
 
     def step(self) -> State:
         """The set point of the next tick."""
@@ -157,20 +148,20 @@ class RuckigFilter:
             self.state = self.within(1.0)
             if self.ticks >= self._ends:
                 self._arrive()
-        if self._stop_asked:
-            self._try_to_stop()
+        if self._stop_by is not None and not self._brakes() and self.ticks >= self._stop_by:
+            raise self._no_stop()
         return self.state
 
     def within(self, share: float) -> State:
         """The motion inside the interval just gone, share 0 at its begin to 1 at its end."""
         time, (motion, began) = self.ticks - 1 + share, self._gone
         if motion is not None:
-            return _state(motion, (time - began) * self.interval)
+            return motion.state((time - began) * self.interval)
         if self._reference is not None:
             return self._reference.at_times(np.array([time * self.interval]))[0]
         return self.state
 
-    def _begin(self, mode: Mode, motion: Trajectory | None, length: int) -> None:
+    def _begin(self, mode: Mode, motion: PlannedMotion | None, length: int) -> None:
         self.mode, self._motion = mode, motion
         self._began, self._ends = self.ticks, self.ticks + length
 
@@ -178,15 +169,11 @@ class RuckigFilter:
         """One interval along the stroke."""
         assert self._reference is not None
         target = self._reference.at(self.ticks)
-        motion = self._to(target, self.interval)
-        self._motion, self._began = motion, self.ticks - 1
-        if motion is not None:
-            reached = _state(motion, self.interval)
-            if self._met(reached, target):
-                self.state = reached
-                return
+        self._motion = self._planner.exact(self.state, target, self.interval)
+        self._began = self.ticks - 1
         # the reference keeps the limits by itself
-        self._motion, self.state, self.replaced = None, target, self.replaced + 1
+        self.replaced += self._motion is None
+        self.state = target
 
     def _arrive(self) -> None:
         if self.mode is Mode.STOPPING:
@@ -196,19 +183,38 @@ class RuckigFilter:
             assert self._reference is not None
             self.mode, self.state = Mode.FOLLOWING, self._reference.at(self.ticks)
 
-    def _try_to_stop(self) -> None:
-        motion = self._calculate(self._brake)
-        if motion is not None and self._keeps_range(motion):
-            length = ceil(motion.duration / self.interval - MET)
-            self._stop_asked = False
-            self._begin(Mode.STOPPING, motion, length)
+    def _brakes(self) -> bool:
+        """Begin to brake where that keeps the range."""
+        motion = self._planner.brake(self.state)
+        if motion is not None:
+            self._stop_by = None
+            self._begin(Mode.STOPPING, motion, ceil(motion.duration / self.interval - MET))
+        return motion is not None
+
+    def _last_chance(self) -> int:
+        """A tick ahead from which the brake keeps the range."""
+        assert self._reference is not None
+        cycle = self._reference.stroke.period / self.interval
+        joined = self._ends if self.mode is Mode.JOINING else self.ticks
+        ahead = joined + np.unique(np.linspace(0.0, cycle, STRIDES + 1).astype(np.int64))
+        for tick, state in zip(ahead.tolist(), self._reference.states(ahead), strict=True):
+            if self._planner.brake(state) is not None:
+                return int(tick)
+        raise self._no_stop()
+
+    def _no_stop(self) -> RuntimeError:
+        self._stop_by = None
+        return RuntimeError(
+            "RuckigFilter.stop: nowhere in a whole cycle can both joints come to rest inside their "
+            "range; a wider range, or more acceleration and jerk, leaves room for the brake"
+        )
 
     def _earliest(self, reference: Reference) -> int:
         """Ticks until the earliest instant at which the stroke can be met, at least one."""
-        longest = MOST_CYCLES * reference.stroke.period / self.interval
-        trip = self._to(State.at_rest(reference.at(self.ticks).position), 0.0)
-        if trip is not None:
-            longest += MOST_TRIPS * trip.duration / self.interval
+        posture = reference.at(self.ticks).position
+        trip = self._planner.longest_trip(self.state, posture)
+        longest = (MOST_CYCLES * reference.stroke.period + MOST_TRIPS * trip) / self.interval
+        longest = min(longest, MOST_TICKS)
         found = earliest(reference, self.ticks, longest, self._meets)
         if found is None:
             raise RuntimeError(
@@ -219,70 +225,4 @@ class RuckigFilter:
 
     def _meets(self, target: State, length: int) -> bool:
         """Whether a state can be reached in exactly so many ticks, inside the range."""
-        motion = self._to(target, length * self.interval)
-        return (
-            motion is not None
-            and abs(motion.duration - length * self.interval) <= MET
-            and self._met(_state(motion, motion.duration), target)
-            and self._keeps_range(motion)
-        )
-
-    def _met(self, reached: State, target: State) -> bool:
-        """Whether a state is another one but for rounding; Ruckig itself is content with 1e-8."""
-        accelerations = zip(reached.acceleration, target.acceleration, strict=True)
-        rates = zip(reached.velocity, target.velocity, strict=True)
-        angles = zip(reached.position, target.position, strict=True)
-        return (
-            max(abs(a - b) for a, b in angles) <= MET
-            and max(abs(a - b) for a, b in rates) <= MET
-            and max(abs(a - b) for a, b in accelerations) <= MET + ROUNDING / self.interval**2
-        )
-
-    def _to(self, target: State, duration: float) -> Trajectory | None:
-        """Motion from the present state to another in no less than a duration in [s]."""
-        asked = self._input
-        asked.target_position = target.position
-        asked.target_velocity = target.velocity
-        asked.target_acceleration = target.acceleration
-        asked.minimum_duration = duration
-        return self._calculate(asked)
-
-    def _calculate(self, asked: InputParameter) -> Trajectory | None:
-        asked.current_position = self.state.position
-        asked.current_velocity = self.state.velocity
-        asked.current_acceleration = self.state.acceleration
-        motion = Trajectory(2)
-        try:
-            result = self._ruckig.calculate(asked, motion)
-        except RuckigError:
-            return None
-        return motion if result in (Result.Working, Result.Finished) else None
-
-    def _keeps_range(self, motion: Trajectory) -> bool:
-        extrema = motion.position_extrema
-        return self._allowed([e.min for e in extrema], [e.max for e in extrema])
-
-    def _allowed(self, lowest: list[float], highest: list[float]) -> bool:
-        """Whether angles are inside the joints' range."""
-        return all(
-            low - WIDER <= a and b <= high + WIDER
-            for (low, high), a, b in zip(self._range, lowest, highest, strict=True)
-        )
-
-
-def _state(motion: Trajectory, time: float) -> State:
-    position, velocity, acceleration = motion.at_time(time)
-    return State(tuple(position), tuple(velocity), tuple(acceleration))
-
-
-def _inputs(limits: Limits) -> tuple[InputParameter, InputParameter]:
-    """What Ruckig is asked for: a way to a state, and a brake."""
-    way, brake = InputParameter(2), InputParameter(2)
-    for asked in (way, brake):
-        bounds = [(limits.ranges(b)[:, 1] * (1.0 + WIDER)).tolist() for b in list(Bound)[1:]]
-        asked.max_velocity, asked.max_acceleration, asked.max_jerk = bounds
-    brake.control_interface = ControlInterface.Velocity
-    # each joint as early as it can
-    brake.synchronization = Synchronization.No
-    brake.target_velocity = brake.target_acceleration = [0.0, 0.0]
-    return way, brake
+        return self._planner.exact(self.state, target, length * self.interval) is not None

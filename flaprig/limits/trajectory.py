@@ -19,7 +19,7 @@ from flaprig.strokes.stroke import Motion, Stroke, check_stroke
 
 Array = NDArray[np.float64]
 
-# most cycles and set points of one trajectory
+# most cycles of one trajectory, and most set points before the brake and of the brake
 MOST_CYCLES, MOST_TICKS = 1000, 5_000_000
 # unit of each derivative in the names of columns
 UNITS = {"": "rad", "_rate": "rad_per_s", "_acceleration": "rad_per_s2"}
@@ -116,7 +116,8 @@ def filtered(
 
     Raises:
         ValueError: a bad argument; the sentence names it.
-        RuntimeError: no way onto the stroke was found.
+        RuntimeError: no way onto the stroke was found or it is too long, or the brake would leave
+            the joints' range wherever it begins.
     """
     owner = "filtered"
     check_stroke(owner, stroke)
@@ -143,12 +144,23 @@ def _played(control: RuckigFilter, stroke: Stroke, cycles: int) -> tuple[list[St
     states = [control.state]
     joined = control.follow(stroke)
     until = control.ticks + round((joined + cycles * stroke.period) / control.interval)
+    if until > MOST_TICKS:
+        raise RuntimeError(
+            f"filtered: the stroke is joined after {joined:.4g} s, and following it ends after "
+            f"{until} set points, more than {MOST_TICKS}; a longer interval or looser limits help"
+        )
     while control.ticks < until:
         states.append(control.step())
+
     control.stop()
-    # the joints' range may delay the brake
+    # the joints' range may delay the brake, which the filter bounds by a cycle
     left = control.time
     while control.mode is not Mode.RESTING:
+        if len(states) > 2 * MOST_TICKS:
+            raise RuntimeError(
+                f"filtered: the brake takes more than {MOST_TICKS} set points; a longer interval "
+                "or looser limits help"
+            )
         left = control.time if control.mode is Mode.FOLLOWING else left
         states.append(control.step())
     return states, joined, left

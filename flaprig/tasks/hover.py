@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -175,16 +176,22 @@ class Hover(Evaluator):
     """Prescribed motion: many strokes in one call of the native air."""
 
     def __init__(self, settings: HoverSettings) -> None:
-        amplitude = settings.sweep_amplitude
-        model, wing, fluid = settings.model, settings.wing, settings.fluid
-        attributes = model.attributes(wing, fluid, settings.frequency, amplitude)
-        self._native = _native.Air(model.plugin, attributes)
+        model = settings.model
+        self._native = _air(settings)
         self._waves = waves(model.steps_per_cycle)
         # air without a memory repeats itself
         steady = isinstance(model, QuasiSteady)
         self._cycles = 1 if steady else settings.cycles
         self._skipped = 0 if steady else settings.skipped_cycles
         super().__init__(settings)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "_native"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        # it holds settings and no state
+        self._native = _air(self.settings)
 
     def simulate(
         self, shape: Shapes, rows: NDArray[np.int64]
@@ -224,3 +231,9 @@ class Hover(Evaluator):
         load = parts[0] + parts[1]
         load += parts[2]
         return load.reshape(rows, self._cycles, count, 6)[:, self._skipped :]
+
+
+def _air(settings: HoverSettings) -> _native.Air:
+    model, wing, fluid = settings.model, settings.wing, settings.fluid
+    attributes = model.attributes(wing, fluid, settings.frequency, settings.sweep_amplitude)
+    return _native.Air(model.plugin, attributes)

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from flaprig.tasks.actions import ACTION_FAILED, checked_actions
+from flaprig.tasks.copies import Copied
 from flaprig.tasks.evaluators import evaluator
 from flaprig.tasks.hover import Evaluation
 from flaprig.tasks.hover_motion import has_shape, largest_is_one, shapes
@@ -24,8 +26,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-# why an episode ended that should not have, beside failures of the simulation
-ACTION_FAILED = "the action is not finite"
+# why an episode ends whose action takes all coefficients of an angle away
+SHAPE_LOST = "the action leaves an angle without coefficients"
 # what an info holds, in the order of its columns
 COLUMNS = (
     *("cl", "cd", "lift_to_drag", "side", "asymmetry"),
@@ -74,7 +76,7 @@ class Step:
         return infos
 
 
-class HoverBatch:
+class HoverBatch(Copied):
     """Episodes that share one evaluator; it knows no seeds, generators are handed in.
 
     Attributes:
@@ -118,17 +120,23 @@ class HoverBatch:
         """Take one action in every episode; none begins anew by itself.
 
         Args:
-            actions: clipped to [-1, 1]. Shape (count, 12).
+            actions: clipped to [-1, 1]; a row that is not finite ends its episode. Shape
+                (count, 12).
+
+        Raises:
+            ValueError: actions of another shape.
         """
-        change = self.settings.step_size * np.clip(np.asarray(actions, dtype=np.float64), -1.0, 1.0)
-        moved = self.coefficients + change
-        refused = ~has_shape(moved)
+        actions, broken = checked_actions("HoverBatch", actions, self.coefficients.shape)
+        moved = self.coefficients + self.settings.step_size * actions
+        refused = broken | ~has_shape(moved)
         if refused.any():
             moved[refused] = self.coefficients[refused]
         self.coefficients = largest_is_one(moved)
         self.elapsed += 1
         found = self.hover.evaluate(self.coefficients)
-        refusals = dict.fromkeys(np.flatnonzero(refused).tolist(), ACTION_FAILED)
+        refusals = {
+            k: ACTION_FAILED if broken[k] else SHAPE_LOST for k in np.flatnonzero(refused).tolist()
+        }
         failures = found.failures | refusals
         failed = np.zeros_like(refused)
         failed[list(failures)] = True

@@ -8,6 +8,7 @@ of the stroke asked for. All strokes of a batch run on mujoco.batch.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from mujoco.batch import Batch
@@ -21,6 +22,7 @@ from flaprig.motors import RIG_MOTORS, Motors
 from flaprig.rig import Rig, Sensor, coordinates, readings
 from flaprig.servo_link import PERFECT, ServoLink
 from flaprig.strokes.fourier import FourierStroke
+from flaprig.tasks.copies import packed, unpacked
 from flaprig.tasks.hover import LOADS_FAILED, Coefficients, Evaluator
 from flaprig.tasks.hover_motion import Shapes
 from flaprig.tasks.hover_settings import HARMONICS, SINUSOID_COEFFICIENTS, HoverSettings
@@ -89,6 +91,12 @@ class RigHover(Evaluator):
         self.states: dict[int, Array] = {}
         self._sensors = readings(self.model)
         super().__init__(settings.problem)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return vars(self) | {"model": packed(self.model)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state | {"model": unpacked(state["model"])})
 
     def fly(self, coefficients: Array) -> Result:
         """One stroke with all its histories, by flaprig.Twin."""

@@ -7,6 +7,7 @@ some cycles, prescribed or by the motors.
 from __future__ import annotations
 
 from collections import OrderedDict
+from typing import ClassVar
 
 import mujoco
 import numpy as np
@@ -17,6 +18,8 @@ from numpy.typing import NDArray
 from flaprig.aero.result import Result
 from flaprig.rig import Rig
 from flaprig.strokes.fourier import FourierStroke
+from flaprig.tasks.actions import checked_actions
+from flaprig.tasks.copies import Copied
 from flaprig.tasks.hover_batch import HoverBatch, Step
 from flaprig.tasks.hover_rig import HoverRigSettings, RigHover
 from flaprig.tasks.hover_settings import COEFFICIENTS, HoverSettings
@@ -35,6 +38,7 @@ class HoverPhysics(RigPhysics):
     # the evaluator's flight and the coefficients of the last stroke
     batch: HoverBatch | None = None
     _flight: Result | None = None
+    _kept: ClassVar[tuple[str, ...]] = (*RigPhysics._kept, "batch", "_flight")
 
     @classmethod
     def make(cls, settings: HoverSettings | HoverRigSettings) -> HoverPhysics:
@@ -105,7 +109,7 @@ def _model(batch: HoverBatch) -> mujoco.MjModel:
     return Rig(wing=s.wing, fluid=s.fluid, model=s.model, frequency=s.frequency).compile()
 
 
-class HoverTask(control.Task):
+class HoverTask(Copied, control.Task):
     """Equations 8 to 13 as a task; settings are those of its physics.
 
     Args:
@@ -127,8 +131,13 @@ class HoverTask(control.Task):
         physics.show()
 
     def before_step(self, action: Array, physics: HoverPhysics) -> None:
-        """Change the stroke and fly it."""
+        """Change the stroke and fly it.
+
+        Raises:
+            ValueError: an action of another shape.
+        """
         assert physics.batch is not None
+        checked_actions("HoverTask", action, (COEFFICIENTS,))
         self.last = physics.batch.step(np.asarray(action)[None])
         self._observation = self.last.observation[0]
         physics.show()

@@ -2,39 +2,94 @@
 
 from __future__ import annotations
 
+import copy
+import importlib
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import mujoco
 import numpy as np
 from dm_control.mujoco import Physics
-from dm_control.mujoco.wrapper import MjModel
+from dm_control.mujoco.engine import Contexts
+from dm_control.mujoco.wrapper import MjModel, MjrContext
 from dm_control.rl.control import PhysicsError
 from numpy.typing import NDArray
 
+from flaprig.render import gl
 from flaprig.rig import Controls, Sensor, controls, coordinates, readings
+from flaprig.tasks.copies import packed, unpacked
 
 Array = NDArray[np.float64]
 
 # lift, drag and power in the sensor of the fluid
 _LIFT, _DRAG, _POWER = 6, 7, 8
+# dm_control's classes that draw, by the name of the library
+_RENDERERS = {
+    "egl": ("pyopengl.egl_renderer", "EGLContext"),
+    "osmesa": ("pyopengl.osmesa_renderer", "OSMesaContext"),
+    "glfw": ("glfw_renderer", "GLFWContext"),
+}
 
 
 class RigPhysics(Physics):
     """The rig; arrays of two are sweep, then pitch, and are the caller's own.
 
     MuJoCo's sensors are those of the last step's beginning. A step that MuJoCo gives up in is
-    remembered in `failure` and not raised: one episode's end is not the program's.
+    remembered in `failure` and not raised: one episode's end is not the program's. Copies and
+    pickles step like the original, bit for bit, and share nothing with it.
     """
 
-    # why MuJoCo gave up since the last reset
+    # MuJoCo's own order of a step: the other one kicks after a reset and after a copy
+    legacy_step: bool = False
+    # why MuJoCo or the task gave up since the last reset
     failure: str | None = None
+    # what a copy takes along beside MuJoCo's data
+    _kept: ClassVar[tuple[str, ...]] = ("legacy_step", "failure")
 
     @classmethod
     def of(cls, model: mujoco.MjModel) -> Self:
         """Physics of a compiled rig."""
         physics: Self = cls.from_model(MjModel(model))
         return physics
+
+    def __getstate__(self) -> tuple[bytes, dict[str, Any]]:
+        return packed(self.data), {name: getattr(self, name) for name in self._kept}
+
+    def __setstate__(self, state: tuple[bytes, dict[str, Any]]) -> None:
+        data, kept = state
+        super().__setstate__(unpacked(data))
+        self._take_over(unpacked(data).ptr, kept)
+
+    def copy(self, share_model: bool = False) -> Self:
+        """As Physics: the same state, which steps like this one."""
+        made: Self = super().copy(share_model)
+        kept = {name: getattr(self, name) for name in self._kept}
+        made._take_over(self.data.ptr, copy.deepcopy(kept))
+        return made
+
+    def __copy__(self) -> Self:
+        return self.copy()
+
+    def _take_over(self, data: mujoco.MjData, kept: dict[str, Any]) -> None:
+        # Physics computes what follows from the state anew, with the motors off
+        mujoco.mj_copyData(self.data.ptr, self.model.ptr, data)
+        for name, value in kept.items():
+            setattr(self, name, value)
+
+    def _make_rendering_contexts(self) -> None:
+        """As Physics, with a library that works here; dm_control takes the first it can import.
+
+        Raises:
+            RuntimeError: none works; the sentence says what to install.
+        """
+        name = gl.backend()
+        if name not in _RENDERERS:
+            raise RuntimeError(f"no OpenGL library draws pictures here: {gl.ADVICE}")
+        room, kind = _RENDERERS[name]
+        renderer = getattr(importlib.import_module(f"dm_control._render.{room}"), kind)
+        size = self.model.vis.global_
+        context = renderer(max_width=size.offwidth, max_height=size.offheight)
+        self._contexts = Contexts(gl=context, mujoco=MjrContext(self.model, context))
 
     def reset(self, keyframe_id: int | None = None) -> None:
         """As Physics, and forget the failure."""

@@ -9,6 +9,7 @@ import numpy as np
 from dm_control.rl import control
 
 from flaprig import _checks as check
+from flaprig.tasks.copies import Copied
 from flaprig.tasks.hover_rig import HoverRigSettings
 from flaprig.tasks.hover_settings import HoverSettings
 from flaprig.tasks.hover_task import HoverPhysics, HoverTask
@@ -18,12 +19,16 @@ from flaprig.tasks.track_settings import TrackSettings
 Random = int | np.random.Generator | None
 
 
+class RigEnvironment(Copied, control.Environment):
+    """dm_control's Environment, whose copies share nothing with it."""
+
+
 def hover_kinematics(
     random: Random = None, settings: HoverSettings | None = None, **environment: Any
 ) -> control.Environment:
     """A stroke an action, with prescribed motion."""
     physics = HoverPhysics.make(settings or HoverSettings())
-    return control.Environment(physics, HoverTask(random), **environment)
+    return RigEnvironment(physics, HoverTask(random), **environment)
 
 
 def hover_rig(
@@ -31,7 +36,7 @@ def hover_rig(
 ) -> control.Environment:
     """A stroke an action, flown by the motors."""
     physics = HoverPhysics.make(settings or HoverRigSettings())
-    return control.Environment(physics, HoverTask(random), **environment)
+    return RigEnvironment(physics, HoverTask(random), **environment)
 
 
 def track(
@@ -40,7 +45,7 @@ def track(
     """A motor command an action."""
     task = Track(settings, random)
     steps = {"n_sub_steps": task.settings.substeps, "legacy_step": False}
-    return control.Environment(track_physics(task.settings), task, **(steps | environment))
+    return RigEnvironment(track_physics(task.settings), task, **(steps | environment))
 
 
 TASKS: dict[tuple[str, str], Callable[..., control.Environment]] = {

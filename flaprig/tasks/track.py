@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 from flaprig.rig import Rig
 from flaprig.set_points import check_stops
 from flaprig.strokes.stroke import Motion
+from flaprig.tasks.actions import ACTION_FAILED, checked_actions
+from flaprig.tasks.copies import Copied
 from flaprig.tasks.rig_physics import RigPhysics
 from flaprig.tasks.track_settings import TrackSettings
 
@@ -44,7 +46,7 @@ def track_physics(settings: TrackSettings) -> RigPhysics:
     return RigPhysics.of(model)
 
 
-class Track(control.Task):
+class Track(Copied, control.Task):
     """Keep both joints on the stroke.
 
     Args:
@@ -74,9 +76,15 @@ class Track(control.Task):
         physics.data.ctrl[physics.controls.position] = _angles(now)
 
     def before_step(self, action: Array, physics: RigPhysics) -> None:
-        """Tell the servos, and push."""
+        """Tell the servos, and push; an action that is not finite ends the episode.
+
+        Raises:
+            ValueError: an action of another shape.
+        """
         s, where = self.settings, physics.controls
-        action = np.clip(np.nan_to_num(np.asarray(action, dtype=np.float64)), -1.0, 1.0)
+        action, broken = checked_actions("Track", action, (ACTIONS,))
+        if broken:
+            physics.failure = ACTION_FAILED
         coming = self.reference(0.5)
         physics.data.ctrl[where.position] = _angles(coming) + s.angle_range * action[:2]
         physics.data.ctrl[where.velocity] = _rates(coming)
@@ -127,7 +135,7 @@ class Track(control.Task):
         return float(np.prod(each))
 
     def lost(self, physics: RigPhysics) -> bool:
-        """Whether MuJoCo gave up or the stroke is out of reach."""
+        """Whether MuJoCo gave up, the action was not finite or the stroke is out of reach."""
         if physics.failure is not None:
             return True
         return not bool((np.abs(self.error(physics)) < self.settings.lost).all())

@@ -65,7 +65,7 @@ class TrackSettings:
         ranges = {
             "time_step": (1e-5, 0.02, "s"),
             "control_interval": (1e-5, 1.0, "s"),
-            "cycles": (0.01, 1e5, "cycles"),
+            "cycles": (1e-6, 1e5, "cycles"),
             "correlation_time": (1e-4, 1e4, "s"),
             "angle_range": (0.0, pi, "rad"),
             "torque_range": (0.0, 1e3, "N m"),

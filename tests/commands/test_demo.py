@@ -10,7 +10,8 @@ import pytest
 
 from flaprig import UVLM, QuasiSteady, cli
 from flaprig.commands import demo, rig_film
-from flaprig.report import gl, video
+from flaprig.render import gl
+from flaprig.report import video
 from flaprig.report.film import Format
 from flaprig.report.folder import Folder
 from flaprig.rig import Rig

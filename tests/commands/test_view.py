@@ -12,7 +12,7 @@ import pytest
 
 from flaprig import cli
 from flaprig.commands import rig_film
-from flaprig.report import gl
+from flaprig.render import gl
 
 COARSE = ["--chordwise", "2", "--spanwise", "3", "--steps-per-cycle", "16"]
 

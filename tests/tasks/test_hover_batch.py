@@ -9,7 +9,8 @@ import pytest
 
 from flaprig.limits import SINUSOID
 from flaprig.tasks import SINUSOID_COEFFICIENTS, HoverBatch, HoverSettings
-from flaprig.tasks.hover_batch import ACTION_FAILED, COLUMNS
+from flaprig.tasks.actions import ACTION_FAILED
+from flaprig.tasks.hover_batch import COLUMNS, SHAPE_LOST
 
 SETTINGS = HoverSettings(horizon=5)
 
@@ -71,17 +72,26 @@ def test_bounds_terminate_and_do_not_truncate() -> None:
     assert np.isnan(infos[1]["cl"]) and "failure" not in infos[1]
 
 
-@pytest.mark.parametrize("bad", [np.nan, np.inf])
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_action_that_is_no_number_ends_its_own_episode(bad: float) -> None:
     batch = started(SETTINGS, 2)
     action = np.zeros((2, 12))
-    action[1, 5] = np.nan if np.isnan(bad) else bad
+    action[1, 5] = bad
     step = batch.step(action)
-    assert step.terminated.tolist() == [False, bool(np.isnan(bad))]
-    if np.isnan(bad):
-        assert step.failures == {1: ACTION_FAILED} and step.reward[1] == -2.0
-        assert step.infos()[1]["failure"] == ACTION_FAILED
+    assert step.terminated.tolist() == [False, True]
+    assert step.failures == {1: ACTION_FAILED} and step.reward[1] == -2.0
+    assert step.infos()[1]["failure"] == ACTION_FAILED
     assert np.isfinite(step.observation).all() and np.isfinite(batch.coefficients).all()
+
+
+def test_action_that_takes_an_angle_away_says_so() -> None:
+    """Finite, and yet no stroke is left: all six coefficients of the pitch become zero."""
+    batch = started(replace(SETTINGS, step_size=0.5), 2)
+    batch.coefficients[1, 9] = 0.25
+    action = np.zeros((2, 12))
+    action[1, 9] = -0.5
+    step = batch.step(action)
+    assert step.failures == {1: SHAPE_LOST} and step.terminated.tolist() == [False, True]
 
 
 def test_jitter_comes_from_the_generator_given() -> None:

@@ -13,6 +13,7 @@ from dm_control.rl import control
 from flaprig import FourierStroke, Rig
 from flaprig.motors import RIG_MOTORS
 from flaprig.tasks import TrackSettings, load
+from flaprig.tasks.actions import ACTION_FAILED
 from flaprig.tasks.track import Track
 
 CALM = TrackSettings(disturbance=(0.0, 0.0), random_phase=False, cycles=0.3)
@@ -122,8 +123,14 @@ def test_nan_ends_the_episode_with_a_reason_and_nothing_else() -> None:
 
 
 def test_action_that_is_no_number_is_no_help() -> None:
+    """It ends the episode unrewarded: a policy that diverges does not look trained."""
     one, other = (environment(CALM) for _ in range(2))
-    np.testing.assert_array_equal(errors(one, np.full(4, np.nan)), errors(other, np.zeros(4)))
+    assert len(errors(one, np.full(4, np.nan))) == 1 < len(errors(other, np.zeros(4)))
+    for bad in (np.nan, np.inf):
+        one.reset()
+        step = one.step(np.array([0.0, 0.0, 0.0, bad]))
+        assert step.last() and step.discount == 0.0 and step.reward == 0.0
+        assert one.physics.failure == ACTION_FAILED
 
 
 def test_observation_is_what_it_says() -> None:

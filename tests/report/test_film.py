@@ -1,4 +1,4 @@
-"""The choice of an OpenGL library, and pictures made with it."""
+"""The rig on its flight, and pictures of it with its wake."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from flaprig import UVLM, SunTangStroke
-from flaprig.report import gl
+from flaprig.render import gl
 from flaprig.report.film import close_view
 from flaprig.report.flight import Flight
 from flaprig.report.painter import Painter
@@ -14,31 +14,6 @@ from flaprig.rig import Rig, coordinates
 from flaprig.twin import Twin
 
 STROKE = SunTangStroke(0.2, np.pi / 3, np.pi / 4)
-
-
-def test_switched_off(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("MUJOCO_GL", "disabled")
-    assert gl.backend() is None
-
-
-def test_first_that_works_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("MUJOCO_GL", raising=False)
-    monkeypatch.setattr(gl, "_candidates", lambda: ["egl", "osmesa"])
-    monkeypatch.setattr(gl, "works", lambda name: name == "osmesa")
-    assert gl.backend() == "osmesa"
-    monkeypatch.setattr(gl, "works", lambda name: False)
-    assert gl.backend() is None
-
-
-def test_the_user_decides(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("MUJOCO_GL", "osmesa")
-    tried: list[str] = []
-    monkeypatch.setattr(gl, "works", lambda name: bool(tried.append(name)))
-    assert gl.backend() is None and tried == ["osmesa"]
-
-
-def test_library_that_does_not_exist() -> None:
-    assert not gl.works("no_such_library")
 
 
 def test_flight_follows_the_stroke_as_the_twin() -> None:

@@ -1,0 +1,1 @@
+"""Pictures: which OpenGL library draws them on this machine."""
