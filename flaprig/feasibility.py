@@ -165,7 +165,9 @@ def check_feasibility(
     projection = project(stroke, limits)
     run = _run(replace(twin, limits=limits), stroke, projection, cycles, _part(progress, 0.0))
     prescribed = simulate(
-        rig.wing, stroke, rig.model, rig.fluid, cycles, progress=_part(progress, _TWIN_SHARE)
+        *(rig.wing, stroke, rig.model, rig.fluid, cycles),
+        progress=_part(progress, _TWIN_SHARE),
+        buoyancy=rig.buoyancy,
     )
     verdicts = motion_verdicts(stroke, projection, limits, tolerances)
     for axis in Axis:

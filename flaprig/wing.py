@@ -129,9 +129,7 @@ class Wing:
         root = check.in_range(owner, "root_offset", root_offset, 0.0, MOST_LENGTH, "m")
         axis = check.in_range(owner, "pitch_axis", pitch_axis, 0.0, 1.0, "chords")
         x, chord = planform.beta(*planform.checked_radii(owner, r1, r2))
-        return cls.from_table(
-            root + span * x, mean_chord * chord, None, axis, thickness, density
-        )
+        return cls.from_table(root + span * x, mean_chord * chord, None, axis, thickness, density)
 
     @classmethod
     def from_table(
@@ -179,6 +177,11 @@ class Wing:
     def stations(self) -> Array:
         """Columns radius, chord, leading edge in [m]. Shape (k, 3), float64, C-contiguous."""
         return np.ascontiguousarray(np.transpose([self.radius, self.chord, self.leading_edge]))
+
+    @property
+    def is_rectangle(self) -> bool:
+        """Whether chord and leading edge are the same at every station."""
+        return len(set(self.chord)) == 1 and len(set(self.leading_edge)) == 1
 
     @property
     def span(self) -> float:

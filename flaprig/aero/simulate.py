@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from flaprig import _checks as check
 from flaprig.aero.air import Air, Progress, WingLoads
+from flaprig.aero.buoyancy import buoyant_torque
 from flaprig.aero.histories import Histories
 from flaprig.aero.models import UVLM, AirModel
 from flaprig.aero.result import Result, averaged_cycles
@@ -39,6 +40,7 @@ def simulate(
     cycles: int = 5,
     substeps: int = 1,
     progress: Progress | None = None,
+    buoyancy: bool = False,
 ) -> Result:
     """Loads on a wing that follows a stroke exactly, beginning in still fluid.
 
@@ -50,6 +52,9 @@ def simulate(
         cycles: number of cycles, 1 to 1000.
         substeps: instants reported per model step, between which the wake stands still.
         progress: called with the fraction done.
+        buoyancy: whether the pitch torque has that of the displaced fluid in it, as the servo in
+            the tank feels it (the weight of the plate, which is of no fluid, is not in it). Lift,
+            drag and power are those of the motion either way.
 
     Raises:
         ValueError: a value out of range.
@@ -58,12 +63,13 @@ def simulate(
     model = UVLM() if model is None else model
     check.whole("simulate", "cycles", cycles, 1, 1000)
     check.whole("simulate", "substeps", substeps, 1, 1000)
+    check.flag("simulate", "buoyancy", buoyancy)
     steps = model.steps_per_cycle * substeps
     motion = prescribed(stroke, cycles, steps)
     rigid = RigidMotion.from_stroke(motion)
     air = Air(wing, fluid, model, stroke.frequency, stroke.sweep_amplitude)
     loads = air.run(rigid, 1.0 / (steps * stroke.frequency), progress)
-    return result_of(wing, stroke, fluid, motion, rigid, loads, cycles)
+    return result_of(wing, stroke, fluid, motion, rigid, loads, cycles, buoyancy)
 
 
 def prescribed(stroke: Stroke, cycles: int, steps: int) -> Motion:
@@ -86,14 +92,17 @@ def result_of(
     rigid: RigidMotion,
     loads: WingLoads,
     cycles: int,
+    buoyancy: bool = False,
 ) -> Result:
-    """What the loads along a prescribed stroke mean.
+    """What the loads along a prescribed stroke mean, with the displaced fluid's where asked for.
 
     Raises:
         FloatingPointError: the loads are not finite; says from which time on.
     """
     _require_finite(loads, motion.time)
     histories = stroke_histories(motion, rigid, loads)
+    if buoyancy:
+        histories = histories.with_buoyancy(buoyant_torque(wing, fluid, motion.pitch))
     force = reference_force(wing, stroke, fluid)
     return Result(histories, force, motion.time.size // cycles, averaged_cycles(cycles))
 

@@ -11,8 +11,7 @@ from tyro.conf import arg
 
 from flaprig.aero.models import QuasiSteady
 from flaprig.commands import options
-from flaprig.commands.run_output import Case
-from flaprig.commands.twin import rig_of
+from flaprig.commands.rig_options import RigFile, rig_of, rig_summary
 from flaprig.report.folder import Folder
 from flaprig.report.numbers import as_json
 
@@ -25,6 +24,7 @@ class Export:
     asks for) and counts.csv (the servos' position counts), one row a control interval.
 
     Attributes:
+        rig: MJCF file of a rig: its wing, fluid and servos count, but for what other options say.
         cycles: that are followed between start and stop.
         interval: of the servos' control [s].
         json: print exactly one JSON object and nothing else.
@@ -34,6 +34,7 @@ class Export:
     stroke: options.StrokeOptions = field(default_factory=options.StrokeOptions)
     wing: options.WingOptions = field(default_factory=options.WingOptions)
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
+    rig: RigFile = None
     cycles: int = 5
     interval: float = 0.01
     json: bool = False
@@ -53,8 +54,8 @@ def run(args: Export, folder: Folder) -> None:
     from flaprig.logs import XM430_RIG
     from flaprig.set_points import own_limits
 
-    wing, stroke, fluid = args.wing.build(), args.stroke.build(), args.fluid.build()
-    rig = rig_of(Case(wing, stroke, QuasiSteady(), fluid, args.cycles))
+    stroke = args.stroke.build()
+    rig = rig_of(args.rig, stroke, args.wing, args.fluid, QuasiSteady())
     limits = own_limits(rig, rig.compile())
     played = filtered(stroke, limits, args.cycles, args.interval)
     torque = needed_torques(rig, played.motion)
@@ -65,6 +66,7 @@ def run(args: Export, folder: Folder) -> None:
     folder.write("counts.csv", lambda draft: XM430_RIG.save(draft, played.motion))
     summary = {
         "command": "export",
+        **rig_summary(rig),
         "interval_s": played.interval,
         "set_points": len(played.motion.time),
         "joined_at_s": played.joined_at,

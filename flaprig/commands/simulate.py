@@ -11,6 +11,7 @@ from tyro.conf import arg
 import flaprig
 from flaprig.commands import options
 from flaprig.commands.progress import progress
+from flaprig.commands.rig_options import RigFile, rig_of, rig_summary
 from flaprig.commands.run_output import Case, tell, timed, write_histories, write_pictures
 from flaprig.report.folder import Folder
 
@@ -23,6 +24,8 @@ class Simulate:
     paper in water on its sinusoidal stroke.
 
     Attributes:
+        rig: MJCF file of a rig: its wing, fluid, servos and model of the fluid count, but for what
+            other options say.
         cycles: number of cycles; means are over the third to the last, at most three.
         json: print exactly one JSON object and nothing else.
         out: folder for histories.csv, histories.npz, summary.json, forces.png and wake.png.
@@ -32,6 +35,7 @@ class Simulate:
     wing: options.WingOptions = field(default_factory=options.WingOptions)
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
     model: options.ModelOptions = field(default_factory=options.ModelOptions)
+    rig: RigFile = None
     cycles: int = 5
     json: bool = False
     out: Annotated[Path | None, arg(metavar="DIR", help_behavior_hint="(optional)")] = None
@@ -42,22 +46,27 @@ def run(args: Simulate, folder: Folder) -> None:
 
     Raises:
         ValueError: bad input.
+        ImportError: the plugin library is missing or does not fit MuJoCo.
         FloatingPointError: the loads are not finite.
         OSError: a file cannot be read or written.
     """
-    case = Case(
-        args.wing.build(),
-        args.stroke.build(),
-        args.model.build(),
-        args.fluid.build(),
-        args.cycles,
-    )
+    stroke = args.stroke.build()
+    rig = rig_of(args.rig, stroke, args.wing, args.fluid, args.model)
+    case = Case(rig.wing, stroke, rig.model, rig.fluid, args.cycles)
     folder.create()
     with timed() as spent, progress("simulate") as told:
         result = flaprig.simulate(
-            case.wing, case.stroke, case.model, case.fluid, case.cycles, progress=told
+            *(case.wing, case.stroke, case.model, case.fluid, case.cycles),
+            progress=told,
+            buoyancy=rig.buoyancy,
         )
-    summary = {"command": "simulate", **case.summary(), **result.summary(), **spent}
+    summary = {
+        "command": "simulate",
+        **rig_summary(rig),
+        **case.summary(),
+        **result.summary(),
+        **spent,
+    }
     write_histories(folder, result.save, summary)
     write_pictures(folder, case, result)
     tell(args.json, case.title, summary, folder)

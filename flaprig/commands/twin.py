@@ -10,6 +10,7 @@ from tyro.conf import arg
 
 from flaprig.commands import options
 from flaprig.commands.progress import progress
+from flaprig.commands.rig_options import RigFile, rig_of, rig_summary
 from flaprig.commands.run_output import Case, tell, timed, write_histories, write_pictures
 from flaprig.commands.servo_options import ServoOptions
 from flaprig.report.folder import Folder
@@ -28,6 +29,8 @@ class Twin:
     Prints mean coefficients of the motion really made, with their spread from cycle to cycle.
 
     Attributes:
+        rig: MJCF file of a rig: its wing, fluid, servos and model of the fluid count, but for what
+            other options say.
         cycles: number of cycles; means are over the third to the last, at most three.
         time_step: of MuJoCo [s].
         json: print exactly one JSON object and nothing else.
@@ -40,6 +43,7 @@ class Twin:
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
     model: options.ModelOptions = field(default_factory=options.ModelOptions)
     servo: ServoOptions = field(default_factory=ServoOptions)
+    rig: RigFile = None
     cycles: int = 3
     time_step: float = 0.002
     json: bool = False
@@ -54,17 +58,13 @@ def run(args: Twin, folder: Folder) -> None:
         ImportError: the plugin library is missing or does not fit MuJoCo.
         OSError: a file cannot be read or written.
     """
-    case = Case(
-        args.wing.build(),
-        args.stroke.build(),
-        args.model.build(),
-        args.fluid.build(),
-        args.cycles,
-    )
+    stroke = args.stroke.build()
+    rig = rig_of(args.rig, stroke, args.wing, args.fluid, args.model)
+    case = Case(rig.wing, stroke, rig.model, rig.fluid, args.cycles)
     folder.create()
     with timed() as spent, progress("twin") as told:
-        done = fly(case, args.time_step, told, args.servo)
-    summary = {"command": "twin", **case.summary(), **done.summary(), **spent}
+        done = fly(rig, case, args.time_step, told, args.servo)
+    summary = {"command": "twin", **rig_summary(rig), **case.summary(), **done.summary(), **spent}
     write_histories(folder, done.save, summary)
     write_motors(folder, done, case)
     write_pictures(folder, case, done.result)
@@ -72,21 +72,15 @@ def run(args: Twin, folder: Folder) -> None:
 
 
 def fly(
-    case: Case, time_step: float, told: Progress | None, servo: ServoOptions | None = None
+    rig: Rig,
+    case: Case,
+    time_step: float,
+    told: Progress | None,
+    servo: ServoOptions | None = None,
 ) -> TwinRun:
     """The rig's run of a case."""
-    machine = (servo or ServoOptions()).twin(rig_of(case), time_step)
+    machine = (servo or ServoOptions()).twin(rig, time_step)
     return machine.run(case.stroke, case.cycles, told)
-
-
-def rig_of(case: Case) -> Rig:
-    """The rig with the case's wing, fluid and model."""
-    # mujoco takes half a second to import: not for --help
-    from flaprig.rig import Rig
-
-    return Rig.load().with_(
-        wing=case.wing, fluid=case.fluid, model=case.model, frequency=case.stroke.frequency
-    )
 
 
 def write_motors(folder: Folder, done: TwinRun, case: Case) -> None:
