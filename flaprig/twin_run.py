@@ -194,7 +194,7 @@ def gather(
         commanded=points.motion,
         projection=points.projection,
         joined_at=points.joined_at,
-        energy=_balance(rig, model, log, histories.power, cycles),
+        energy=balance(rig, model, log, histories.power, cycles),
         fluid_wrench=sensors[Sensor.AERO][:, :6],
         load_cell=sensors[Sensor.LOAD_CELL],
         time_step=model.opt.timestep,
@@ -228,18 +228,27 @@ def gravity(model: mujoco.MjModel) -> float:
     return 0.0 if off else float(-model.opt.gravity[2])
 
 
-def _balance(
-    rig: Rig, model: mujoco.MjModel, log: StepLog, power: Array, cycles: int
+def balance(
+    rig: Rig, model: mujoco.MjModel, log: StepLog, power: Array, parts: int
 ) -> EnergyBalance:
+    """Where the motors' work went in each of so many equal parts of a run.
+
+    Args:
+        rig: whose plate and fluid they are.
+        model: as it ran.
+        log: of the run of n steps.
+        power: given to the moving fluid in [W]. Shape (n,).
+        parts: usually the cycles.
+    """
     step, velocity = model.opt.timestep, log.mean_qvel
-    edges = np.linspace(0, len(velocity), cycles + 1).astype(int)
+    edges = np.linspace(0, len(velocity), parts + 1).astype(int)
     stored = np.array([solid_energy(model, log.qpos[k], log.qvel[k]) for k in edges])
     if rig.buoyancy:
         pitch = log.qpos[edges, coordinates(model)[0][1]]
         stored[:, 1] += buoyant_energy(rig.wing, rig.fluid, pitch, gravity(model))
 
     def work(power: Array) -> Array:
-        return np.asarray(power.reshape(cycles, -1).sum(axis=1) * step)
+        return np.asarray(power.reshape(parts, -1).sum(axis=1) * step)
 
     return EnergyBalance(
         motor_work=work(np.einsum("nj,nj->n", log.generalized_force, velocity)),
