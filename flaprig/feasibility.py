@@ -164,11 +164,9 @@ def check_feasibility(
     check_limits(owner, limits)
     projection = project(stroke, limits)
     run = _run(replace(twin, limits=limits), stroke, projection, cycles, _part(progress, 0.0))
-    prescribed = simulate(
-        *(rig.wing, stroke, rig.model, rig.fluid, cycles),
-        progress=_part(progress, _TWIN_SHARE),
-        buoyancy=rig.buoyancy,
-    )
+    case = (rig.wing, stroke, rig.model, rig.fluid, cycles)
+    told = _part(progress, _TWIN_SHARE)
+    prescribed = simulate(*case, progress=told, buoyancy=rig.buoyancy)
     verdicts = motion_verdicts(stroke, projection, limits, tolerances)
     for axis in Axis:
         motor, allowed = getattr(rig.motors, axis), getattr(limits, axis)
