@@ -82,6 +82,13 @@ def whole(owner: str, name: str, value: Any, least: int, most: int) -> int:
     return int(number)
 
 
+def flag(owner: str, name: str, value: Any) -> bool:
+    """True or False, not a number or a text that could mean either."""
+    if not isinstance(value, bool):
+        raise fail(owner, name, "True or False", value)
+    return value
+
+
 def one_of(owner: str, name: str, value: Any, choices: type[Choice]) -> Choice:
     """A member of the enumeration, given as such or by its value."""
     try:

@@ -24,9 +24,9 @@ class EnergyBalance:
 
     Attributes:
         motor_work: mechanical work of the motors on their rotors.
-        fluid_work: work of the wing on the fluid, buoyancy included.
+        fluid_work: work of the wing on the moving fluid.
         kinetic: gain of kinetic energy of everything solid.
-        potential: gain of potential energy (weight, springs).
+        potential: gain of potential energy (weight less buoyancy, springs).
         losses: work into friction of joints and gears, and into the joint stops.
     """
 

@@ -190,9 +190,9 @@ def check_feasibility(
     check_limits(owner, limits)
     projection = project(stroke, limits)
     run = _run(replace(twin, limits=limits), stroke, projection, cycles, _part(progress, 0.0))
-    prescribed = simulate(
-        rig.wing, stroke, rig.model, rig.fluid, cycles, progress=_part(progress, _TWIN_SHARE)
-    )
+    case = (rig.wing, stroke, rig.model, rig.fluid, cycles)
+    told = _part(progress, _TWIN_SHARE)
+    prescribed = simulate(*case, progress=told, buoyancy=rig.buoyancy)
     verdicts = motion_verdicts(stroke, projection, limits, tolerances)
     # a stroke that the twin does not make is judged by what it would need
     made = projection.distance_max <= tolerances.resolution

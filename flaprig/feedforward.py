@@ -1,7 +1,8 @@
 """The torque that a motion needs, from inverse dynamics of the rig in fluid without a memory.
 
 The air is the quasi-steady model's: added mass and the load at the given rates, no wake. mj_inverse
-takes M with the fluid's added mass in it, and passive forces with the rest of the load.
+takes M with the fluid's added mass in it, and passive forces with the rest of the load, buoyancy
+too where the rig has it.
 """
 
 from __future__ import annotations

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from flaprig import _checks as check
 
+# acceleration of gravity [m/s2]: that of models/rig.xml
+GRAVITY = 9.81
 # fastest wind that the native code accepts [m/s]
 MOST_WIND = 1000.0
 

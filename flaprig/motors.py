@@ -27,7 +27,7 @@ class Motor:
 
     Attributes:
         voltage: supply, which the other electrical numbers belong to, in [V].
-        stall_torque: at zero speed and full voltage in [N m]; also the torque limit.
+        stall_torque: at zero speed and full voltage in [N m].
         no_load_speed: at zero torque and full voltage in [rad/s].
         continuous_torque: that the servo bears for ever in [N m], at most the stall torque.
         temperature_limit: winding temperature reached at the continuous torque in [degC].
@@ -39,6 +39,7 @@ class Motor:
         mass: of the whole servo in [kg].
         slew_rate: at which the controller moves its aim to the angle it is told, in [rad/s], as the
             profile velocity of a DYNAMIXEL does; 0: at once.
+        torque_limit: that the controller's current limit allows, in [N m]; 0: the stall torque.
 
     Raises:
         ValueError: a value that is not a positive finite number, a continuous torque above the
@@ -57,6 +58,7 @@ class Motor:
     damping: float
     mass: float
     slew_rate: float = 0.0
+    torque_limit: float = 0.0
 
     def __post_init__(self) -> None:
         owner = "Motor"
@@ -72,6 +74,11 @@ class Motor:
     def torque_constant(self) -> float:
         """K, back-EMF over speed and torque over current, in [V s/rad] = [N m/A]."""
         return self.voltage / self.no_load_speed
+
+    @property
+    def peak_torque(self) -> float:
+        """Largest torque that the controller lets through, in [N m]."""
+        return self.torque_limit or self.stall_torque
 
     @property
     def resistance(self) -> float:
@@ -110,7 +117,7 @@ class Motor:
         return {
             "nominal": [self.voltage, self.stall_torque, self.no_load_speed],
             # torque, current, current rate: the torque limit stands for the current limit
-            "saturation": [self.stall_torque, 0.0, 0.0],
+            "saturation": [self.peak_torque, 0.0, 0.0],
             # resistance, capacity, time constant (from the two), copper, reference, ambient
             "thermal": [
                 self.thermal_resistance,
@@ -146,13 +153,44 @@ class Motors:
                 raise check.fail("Motors", name, "a Motor", motor)
 
 
+def continuous_torque(
+    thermal_resistance: float,
+    torque_constant: float,
+    resistance: float,
+    temperature_limit: float,
+    ambient_temperature: float,
+) -> float:
+    """Torque in [N m] that ends at the temperature limit: Motor.thermal_resistance turned round.
+
+    Args:
+        thermal_resistance: winding to air in [K/W].
+        torque_constant: torque over current in [N m/A].
+        resistance: of the winding at the reference temperature in [Ohm].
+        temperature_limit: of the winding in [degC].
+        ambient_temperature: of the air in [degC].
+    """
+    hot = resistance * (1.0 + COPPER * (temperature_limit - REFERENCE_TEMPERATURE))
+    loss = (temperature_limit - ambient_temperature) / thermal_resistance
+    return torque_constant * math.sqrt(loss / hot)
+
+
+# unit, and the largest value that a servo can have, where it is not check.MOST
+_MOST = {
+    "voltage": ("V", 1e4),
+    "stall_torque": ("N m", 1e6),
+    "no_load_speed": ("rad/s", 1e6),
+    "continuous_torque": ("N m", 1e6),
+    "mass": ("kg", 1e4),
+}
+
+
 def _checked(name: str, value: float) -> float:
-    """The value as a float; temperatures may be negative, rotor inertia and slew rate zero."""
+    """The value as a float; temperatures may be negative, and what may be left out zero."""
     if name in ("temperature_limit", "ambient_temperature"):
         return check.in_range("Motor", name, value, -100.0, 1000.0, "degC")
-    if name in ("rotor_inertia", "slew_rate") and value == 0.0:
+    if name in ("rotor_inertia", "slew_rate", "torque_limit") and value == 0.0:
         return 0.0
-    return check.positive("Motor", name, value)
+    return check.positive("Motor", name, value, *_MOST.get(name, ()))
 
 
 # stall torque over no-load speed at 12 V [N m s/rad], from the two lines below: K^2/R

@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from flaprig.aero.buoyancy import buoyant_energy, buoyant_torque
 from flaprig.aero.histories import Histories
 from flaprig.aero.loads import side_force, sweep_direction, upward
 from flaprig.aero.result import Result, averaged_cycles
@@ -53,8 +54,10 @@ class TwinRun:
         projection: what the limits changed of the stroke asked for; None: run without limits.
         joined_at: when the start from rest had caught up with the stroke in [s].
         energy: balance of every cycle.
-        fluid_wrench: of the fluid on the wing, wing frame, about its origin [N, N m]. Shape (n, 6).
-        load_cell: of the wing on its mount, in the cell's frame [N, N m]. Shape (n, 6).
+        fluid_wrench: of the moving fluid on the wing, without buoyancy, wing frame, about its
+            origin [N, N m]. Shape (n, 6).
+        load_cell: of the wing on its mount, weight and buoyancy in it, in the cell's frame
+            [N, N m]. Shape (n, 6).
         time_step: of MuJoCo in [s]: the one asked for, made to divide the cycle.
         told: sentences on what else was changed: time step, delay, update interval.
     """
@@ -132,13 +135,13 @@ class TwinRun:
     def saturated(self, axis: Axis | str) -> NDArray[np.bool_]:
         """Steps in which a servo's torque, current or voltage was at its limit. Shape (n,).
 
-        The controller asked for more than the stall torque, which stands for the current limit, or
+        The controller asked for more than its torque limit, which stands for the current's, or
         for more volts than the supply has at that speed.
         """
         name = Axis(axis).value
         motor = getattr(self.servos, name)
         voltage, demand = (getattr(self.motors, f"{name}_{part}") for part in ("voltage", "demand"))
-        return np.asarray((np.abs(voltage) > motor.voltage) | (np.abs(demand) > motor.stall_torque))
+        return np.asarray((np.abs(voltage) > motor.voltage) | (np.abs(demand) > motor.peak_torque))
 
     def columns(self) -> dict[str, Array]:
         """All histories by name with unit: those of result and motors, both wrenches."""
@@ -236,6 +239,9 @@ def gather(
     sensors = {name: log.sensors[:, part] for name, part in readings(model).items()}
     force = reference_force(rig.wing, stroke, rig.fluid)
     histories = _histories(model, points.motion, log, sensors[Sensor.AERO])
+    if rig.buoyancy:
+        torque = buoyant_torque(rig.wing, rig.fluid, histories.pitch, gravity(model))
+        histories = histories.with_buoyancy(torque)
     averaged = settled_cycles(cycles, points.joined_at * stroke.frequency)
     return TwinRun(
         result=Result(histories, force, len(control) // cycles, averaged).doubted(stroke),
@@ -245,7 +251,7 @@ def gather(
         asked=stroke,
         projection=points.projection,
         joined_at=points.joined_at,
-        energy=_balance(model, log, histories.power, cycles),
+        energy=balance(rig, model, log, histories.power, cycles),
         fluid_wrench=sensors[Sensor.AERO][:, :6],
         load_cell=sensors[Sensor.LOAD_CELL],
         time_step=model.opt.timestep,
@@ -277,13 +283,33 @@ def _histories(model: mujoco.MjModel, motion: Motion, log: StepLog, aero: Array)
     )
 
 
-def _balance(model: mujoco.MjModel, log: StepLog, power: Array, cycles: int) -> EnergyBalance:
+def gravity(model: mujoco.MjModel) -> float:
+    """Size of gravity in a rig's model in [m/s2]; 0 where it is switched off."""
+    off = model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+    return 0.0 if off else float(-model.opt.gravity[2])
+
+
+def balance(
+    rig: Rig, model: mujoco.MjModel, log: StepLog, power: Array, parts: int
+) -> EnergyBalance:
+    """Where the motors' work went in each of so many equal parts of a run.
+
+    Args:
+        rig: whose plate and fluid they are.
+        model: as it ran.
+        log: of the run of n steps.
+        power: given to the moving fluid in [W]. Shape (n,).
+        parts: usually the cycles.
+    """
     step, velocity = model.opt.timestep, log.mean_qvel
-    edges = np.linspace(0, len(velocity), cycles + 1).astype(int)
+    edges = np.linspace(0, len(velocity), parts + 1).astype(int)
     stored = np.array([solid_energy(model, log.qpos[k], log.qvel[k]) for k in edges])
+    if rig.buoyancy:
+        pitch = log.qpos[edges, coordinates(model)[0][1]]
+        stored[:, 1] += buoyant_energy(rig.wing, rig.fluid, pitch, gravity(model))
 
     def work(power: Array) -> Array:
-        return np.asarray(power.reshape(cycles, -1).sum(axis=1) * step)
+        return np.asarray(power.reshape(parts, -1).sum(axis=1) * step)
 
     return EnergyBalance(
         motor_work=work(np.einsum("nj,nj->n", log.generalized_force, velocity)),

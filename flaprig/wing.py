@@ -179,6 +179,11 @@ class Wing:
         return np.ascontiguousarray(np.transpose([self.radius, self.chord, self.leading_edge]))
 
     @property
+    def is_rectangle(self) -> bool:
+        """Whether chord and leading edge are the same at every station."""
+        return len(set(self.chord)) == 1 and len(set(self.leading_edge)) == 1
+
+    @property
     def span(self) -> float:
         """Root to tip in [m]."""
         return self.radius[-1] - self.radius[0]

@@ -29,6 +29,7 @@ def simulate_batch(
     fluid: Fluid = WATER,
     cycles: int = 5,
     threads: int | None = None,
+    buoyancy: bool = False,
 ) -> list[Result]:
     """Loads on one wing along each of many strokes, as `simulate` gives them.
 
@@ -39,6 +40,7 @@ def simulate_batch(
         fluid: the fluid.
         cycles: number of cycles, 1 to 1000.
         threads: strokes at work at a time; one for each core when None.
+        buoyancy: whether the pitch torque has that of the displaced fluid in it.
 
     Raises:
         ValueError: an argument of the wrong type or out of its range.
@@ -51,10 +53,11 @@ def simulate_batch(
     cycles = check.whole(owner, "cycles", cycles, 1, 1000)
     cores = os.cpu_count() or 1
     threads = check.whole(owner, "threads", cores if threads is None else threads, 1, 1024)
+    check.flag(owner, "buoyancy", buoyancy)
     results: dict[int, Result] = {}
     for members in _alike(wing, strokes, model, fluid):
         chosen = [strokes[k] for k in members]
-        group = _run(wing, chosen, model, fluid, cycles, threads)
+        group = _run(wing, chosen, model, fluid, cycles, threads, buoyancy)
         results |= dict(zip(members, group, strict=True))
     return [results[k] for k in range(len(strokes))]
 
@@ -79,7 +82,13 @@ def _alike(wing: Wing, strokes: Sequence[Stroke], model: AirModel, fluid: Fluid)
 
 
 def _run(
-    wing: Wing, strokes: list[Stroke], model: AirModel, fluid: Fluid, cycles: int, threads: int
+    wing: Wing,
+    strokes: list[Stroke],
+    model: AirModel,
+    fluid: Fluid,
+    cycles: int,
+    threads: int,
+    buoyancy: bool,
 ) -> list[Result]:
     first, steps = strokes[0], model.steps_per_cycle
     motions = [prescribed(stroke, cycles, steps) for stroke in strokes]
@@ -87,7 +96,7 @@ def _run(
     settings = model.attributes(wing, fluid, first.frequency, first.sweep_amplitude)
     loads = batch_loads(model, settings, rigid, 1.0 / (steps * first.frequency), threads)
     return [
-        result_of(wing, stroke, fluid, motion, load, cycles)
+        result_of(wing, stroke, fluid, motion, load, cycles, buoyancy)
         for stroke, motion, load in zip(strokes, motions, loads, strict=True)
     ]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 class Histories:
     """Motion and loads against time; all arrays of shape (n,).
 
-    The four shares are None where nobody can tell them apart, as in the twin.
+    The shares of lift and drag are None where nobody can tell them apart, as in the twin.
 
     Attributes:
         time: [s].
@@ -26,12 +26,15 @@ class Histories:
         drag: force against the sweep, positive when it opposes the motion; at a reversal weighed by
             the parts of the sample's interval before and after it (aero/loads.py) [N].
         sweep_torque: of the fluid on the wing about the sweep axis [N m].
-        pitch_torque: of the fluid on the wing about the pitch axis, along +pitch [N m].
-        power: given to the fluid, -(sweep_torque sweep_rate + pitch_torque pitch_rate) [W].
+        pitch_torque: of the fluid on the wing about the pitch axis, along +pitch [N m]; buoyancy is
+            in it where pitch_torque_buoyancy says how much.
+        power: given to the moving fluid, minus the torques without buoyancy times the rates [W].
         lift_extra: share of the suction (UVLM) or of the rotation (quasi-steady) in lift [N].
         drag_extra: the same in drag [N].
         lift_added_mass: share of the added mass in lift [N].
         drag_added_mass: the same in drag [N].
+        pitch_torque_buoyancy: share of the displaced fluid in pitch_torque [N m]; None where
+            buoyancy was left out.
     """
 
     time: Array
@@ -48,6 +51,12 @@ class Histories:
     drag_extra: Array | None = None
     lift_added_mass: Array | None = None
     drag_added_mass: Array | None = None
+    pitch_torque_buoyancy: Array | None = None
+
+    def with_buoyancy(self, torque: Array) -> Histories:
+        """The same with the displaced fluid's torque in the pitch torque. Shape (n,)."""
+        total = self.pitch_torque + torque
+        return replace(self, pitch_torque=total, pitch_torque_buoyancy=torque)
 
     def columns(self) -> dict[str, Array]:
         """Arrays by name with unit, for files: time_s, sweep_rad, lift_N, ..."""
@@ -63,6 +72,6 @@ def _unit(name: str) -> str:
         return "rad"
     if name.endswith("_rate"):
         return "rad_per_s"
-    if name.endswith("_torque"):
+    if "_torque" in name:
         return "Nm"
     return "W" if name == "power" else "N"

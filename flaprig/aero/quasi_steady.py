@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
 from flaprig import _checks as check
-from flaprig.aero.air_model import SWEEP_AMPLITUDE, geometry_attributes, reynolds_number
-from flaprig.aero.coefficients import DICKINSON_1999, Coefficients
+from flaprig.aero.air_model import SWEEP_AMPLITUDE, geometry_attributes, given, reynolds_number
+from flaprig.aero.coefficients import DICKINSON_1999, LEE_2016, Coefficients
 from flaprig.fluid import Fluid
 from flaprig.wing import Wing
+
+# share by which a Reynolds number in a file may be rounded
+_SAME_REYNOLDS = 0.01
 
 
 @dataclass(frozen=True)
@@ -77,3 +82,45 @@ class QuasiSteady:
             reynolds = reynolds_number(wing, fluid, frequency, sweep_amplitude)
             settings["reynolds"] = repr(reynolds)
         return settings
+
+    def numerics(self) -> dict[str, tuple[float, ...]]:
+        """Instants per cycle, of which the plugin knows nothing."""
+        return {"steps_per_cycle": (float(self.steps_per_cycle),)}
+
+    @classmethod
+    def from_attributes(
+        cls,
+        attributes: Mapping[str, str],
+        numerics: Mapping[str, tuple[float, ...]],
+        frequency: float,
+        reynolds: float,
+    ) -> Self:
+        """The settings of a model file; a Reynolds number of another motion is refused."""
+        usual = cls()
+        steps = numerics.get("steps_per_cycle", (usual.steps_per_cycle,))[0]
+        words = {
+            name: attributes.get(name, "").strip() or "true" for name in ("rotation", "added_mass")
+        }
+        return cls(
+            coefficients=_coefficients(attributes, reynolds),
+            strips=int(given(attributes, "strips", usual.strips)),
+            steps_per_cycle=check.whole("QuasiSteady", "steps_per_cycle", steps, 4, 100_000),
+            **{name: word == "true" for name, word in words.items()},
+        )
+
+
+def _coefficients(attributes: Mapping[str, str], reynolds: float) -> Coefficients:
+    name = attributes.get("coefficients", "").strip() or DICKINSON_1999.name
+    if name == "table":
+        rows = [float(word) for word in attributes.get("coefficient_table", "").split()]
+        return Coefficients.from_table(rows[::3], rows[1::3], rows[2::3])
+    if name != LEE_2016.name:
+        return DICKINSON_1999
+    written = given(attributes, "reynolds", math.nan)
+    if not math.isclose(written, reynolds, rel_tol=_SAME_REYNOLDS):
+        allowed = (
+            f"{reynolds:.6g}, which frequency, sweep_amplitude and kinematic_viscosity of the same "
+            "file give"
+        )
+        raise check.fail("QuasiSteady", "reynolds", allowed, written)
+    return LEE_2016

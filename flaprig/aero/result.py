@@ -60,7 +60,7 @@ class Result:
 
     @property
     def pitch_torque(self) -> Array:
-        """Of the fluid about the pitch axis [N m], shape (n,)."""
+        """Of the fluid about the pitch axis [N m], buoyancy in it where asked for. Shape (n,)."""
         return self.histories.pitch_torque
 
     @property

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from flaprig import _checks as check
 from flaprig.aero.air import Air, Progress, WingLoads
+from flaprig.aero.buoyancy import buoyant_torque
 from flaprig.aero.histories import Histories
 from flaprig.aero.loads import side_force, sweep_direction, upward
 from flaprig.aero.models import UVLM, AirModel
@@ -40,6 +41,7 @@ def simulate(
     cycles: int = 5,
     substeps: int = 1,
     progress: Progress | None = None,
+    buoyancy: bool = False,
 ) -> Result:
     """Loads on a wing that follows a stroke exactly, beginning in still fluid.
 
@@ -51,6 +53,9 @@ def simulate(
         cycles: number of cycles, 1 to 1000.
         substeps: instants reported per model step, between which the wake stands still.
         progress: called with the fraction done.
+        buoyancy: whether the pitch torque has that of the displaced fluid in it, as the servo in
+            the tank feels it (the weight of the plate, which is of no fluid, is not in it). Lift,
+            drag and power are those of the motion either way.
 
     Raises:
         ValueError: an argument of the wrong type or out of its range.
@@ -63,12 +68,13 @@ def simulate(
     cycles = check.whole(owner, "cycles", cycles, 1, 1000)
     substeps = check.whole(owner, "substeps", substeps, 1, 1000)
     check.callback(owner, "progress", progress)
+    check.flag(owner, "buoyancy", buoyancy)
     steps = model.steps_per_cycle * substeps
     motion = prescribed(stroke, cycles, steps)
     rigid = RigidMotion.from_stroke(motion)
     air = Air(wing, fluid, model, stroke.frequency, stroke.sweep_amplitude)
     loads = air.run(rigid, 1.0 / (steps * stroke.frequency), progress)
-    return result_of(wing, stroke, fluid, motion, loads, cycles)
+    return result_of(wing, stroke, fluid, motion, loads, cycles, buoyancy)
 
 
 def check_setup(owner: str, wing: Wing, model: AirModel, fluid: Fluid) -> None:
@@ -102,8 +108,9 @@ def result_of(
     motion: Motion,
     loads: WingLoads,
     cycles: int,
+    buoyancy: bool = False,
 ) -> Result:
-    """What the loads along a prescribed stroke mean.
+    """What the loads along a prescribed stroke mean, with the displaced fluid's where asked for.
 
     Raises:
         FloatingPointError: the loads are not finite; says from which time on.
@@ -111,6 +118,8 @@ def result_of(
     _require_finite(loads, motion.time)
     steps = motion.time.size // cycles
     histories = stroke_histories(motion, loads, stroke.period / steps)
+    if buoyancy:
+        histories = histories.with_buoyancy(buoyant_torque(wing, fluid, motion.pitch))
     force = reference_force(wing, stroke, fluid)
     found = Result(histories, force, steps, averaged_cycles(cycles))
     return found.doubted(stroke)

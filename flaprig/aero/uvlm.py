@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, ClassVar, Self
 
 from flaprig import _checks as check
-from flaprig.aero.air_model import SWEEP_AMPLITUDE, geometry_attributes, reynolds_number
+from flaprig.aero.air_model import SWEEP_AMPLITUDE, geometry_attributes, given, reynolds_number
 from flaprig.aero.suction_law import SuctionLaw
 from flaprig.fluid import Fluid
 from flaprig.wing import Wing
@@ -20,6 +22,11 @@ WAKE_DETAIL = 0.5
 # of the extended lattice, fitted as docs/validation.md says: travel in chords, and the law
 EXTENDED_LAG = 0.15
 EXTENDED_SUCTION = SuctionLaw(slope=0.36, onset=3000.0)
+
+
+# defaults of the plugin that are rows and seconds there, cycles and steps here: native/settings.hpp
+_WAKE_STEP = 0.05
+_ROWS = (("wake_cycles", "wake_rows", 100), ("wake_detail", "wake_detail", 50))
 
 
 class Rate(StrEnum):
@@ -180,7 +187,7 @@ class UVLM:
             "chordwise": int(self.chordwise),
             "spanwise": int(self.spanwise),
             "wake_step": float(1.0 / (frequency * self.steps_per_cycle)),
-            "wake_rows": max(1, round(self.wake_cycles * self.steps_per_cycle)),
+            "wake_rows": _rows(self.wake_cycles, self.steps_per_cycle),
             "wake_detail": self._detail_rows,
             "wake_fade": float(self.wake_fade),
             "core": float(self.core),
@@ -197,8 +204,72 @@ class UVLM:
         text = {n: v.value if isinstance(v, StrEnum) else repr(v) for n, v in settings.items()}
         return geometry_attributes(wing, fluid) | text
 
+    def numerics(self) -> dict[str, tuple[float, ...]]:
+        """What whole rows of the wake round, and the law behind the suction efficiency."""
+        found: dict[str, tuple[float, ...]] = {
+            "wake_cycles": (self.wake_cycles,),
+            "wake_detail": (self.wake_detail,),
+        }
+        law = self.suction_efficiency
+        if isinstance(law, SuctionLaw):
+            found["suction_law"] = (law.slope, law.onset)
+        return found
+
+    @classmethod
+    def from_attributes(
+        cls,
+        attributes: Mapping[str, str],
+        numerics: Mapping[str, tuple[float, ...]],
+        frequency: float,
+        reynolds: float,
+    ) -> Self:
+        """The settings of a model file."""
+        usual = cls()
+        names = (
+            *("wake_fade", "core", "shedding_fraction", "tip_inset"),
+            *("suction_factor", "side_suction_efficiency", "circulation_lag"),
+        )
+        steps = round(1.0 / (frequency * wake_step(attributes)))
+        settings: dict[str, Any] = {n: given(attributes, n, getattr(usual, n)) for n in names}
+        settings |= {
+            n: int(given(attributes, n, getattr(usual, n)))
+            for n in ("chordwise", "spanwise", "threads")
+        }
+        settings |= {
+            n: kind(attributes.get(n, "").strip() or getattr(usual, n))
+            for n, kind in (("rate", Rate), ("precision", Precision))
+        }
+        for name, attribute, default in _ROWS:
+            rows = int(given(attributes, attribute, default))
+            cycles = numerics.get(name, (math.nan,))[0]
+            kept = math.isfinite(cycles) and _rows(cycles, steps) == rows
+            settings[name] = cycles if kept else rows / max(steps, 1)
+        settings["suction_efficiency"] = _suction(attributes, numerics, reynolds)
+        return cls(steps_per_cycle=steps, **settings)
+
     @property
     def _detail_rows(self) -> int:
-        if self.wake_detail == 0:
-            return 0
-        return max(1, round(self.wake_detail * self.steps_per_cycle))
+        return _rows(self.wake_detail, self.steps_per_cycle)
+
+
+def wake_step(attributes: Mapping[str, str]) -> float:
+    """Time between two rows of the wake in a model file, in [s]."""
+    return given(attributes, "wake_step", _WAKE_STEP)
+
+
+def _rows(cycles: float, steps: int) -> int:
+    """Rows of wake in some cycles; none only in none."""
+    return max(1, round(cycles * steps)) if cycles else 0
+
+
+def _suction(
+    attributes: Mapping[str, str], numerics: Mapping[str, tuple[float, ...]], reynolds: float
+) -> float | SuctionLaw:
+    """The number in the file, or the law that gives it at this Reynolds number."""
+    efficiency = given(attributes, "suction_efficiency", SUCTION_EFFICIENCY)
+    parts = numerics.get("suction_law", ())
+    if len(parts) == 2:
+        law = SuctionLaw(*parts)
+        if math.isclose(law.efficiency(reynolds), efficiency, rel_tol=1e-9, abs_tol=1e-12):
+            return law
+    return efficiency

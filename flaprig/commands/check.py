@@ -13,6 +13,7 @@ from tyro.conf import arg
 from flaprig import _checks as check
 from flaprig.commands import options
 from flaprig.commands.progress import progress
+from flaprig.commands.rig_options import RigFile, rig_of, rig_summary
 from flaprig.commands.run_output import Case, timed
 from flaprig.report.folder import Folder
 from flaprig.report.numbers import as_json
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from flaprig.rig import Rig
     from flaprig.scaling import FrequencyRange
     from flaprig.servo_choice import ServoChoice
+    from flaprig.strokes import Stroke
 
 # exit codes
 FEASIBLE, INFEASIBLE = 0, 1
@@ -40,6 +42,8 @@ class Check:
     and the change of lift. Exit status: 0 feasible, 1 infeasible, 2 bad input, 3 the run failed.
 
     Attributes:
+        rig: MJCF file of a rig: its wing, fluid, servos and model of the fluid count, but for what
+            other options say.
         limits: the servos' own, or with the accelerations that the paper's kinematics reach.
         no_feedforward: do not tell the servos the torque that the motion needs.
         rms_tracking: allowed root mean square of angle reached minus angle asked for [degrees].
@@ -56,6 +60,7 @@ class Check:
     wing: options.WingOptions = field(default_factory=options.WingOptions)
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
     model: options.ModelOptions = field(default_factory=options.ModelOptions)
+    rig: RigFile = None
     limits: Literal["servo", "paper"] = "servo"
     no_feedforward: bool = False
     rms_tracking: float = 1.0
@@ -76,20 +81,22 @@ def run(args: Check, folder: Folder) -> int:
         ImportError: the plugin library is missing or does not fit MuJoCo.
         OSError: a file cannot be read or written.
     """
-    case = Case.of(
-        args.stroke.read(),
-        args.wing.build(),
-        args.model.build(),
-        args.fluid.build(),
-        args.cycles,
-    )
+    asked = args.stroke.read()
+    rig = rig_of(args.rig, asked.stroke, args.wing, args.fluid, args.model)
+    case = Case.of(asked, rig, args.cycles)
     settings = _settings(args)
     folder.create()
     with timed() as spent:
-        report = _judged(args, case, settings)
-        scaled = _scaled(args, case, settings) if args.scale else None
+        report = _judged(args, rig, case.stroke, settings)
+        scaled = _scaled(args, rig, case.stroke, settings) if args.scale else None
     notices = case.all_notices(*report.notices)
-    summary = {"command": "check", **case.summary(), **report.summary(), "notices": notices}
+    summary = {
+        "command": "check",
+        **rig_summary(rig),
+        **case.summary(),
+        **report.summary(),
+        "notices": notices,
+    }
     if scaled:
         summary |= {"scale": scaled[0].summary() | scaled[1].summary()}
     summary |= spent
@@ -120,47 +127,39 @@ def _settings(args: Check) -> dict[str, Any]:
     }
 
 
-def _judged(args: Check, case: Case, settings: dict[str, Any]) -> FeasibilityReport:
+def _judged(args: Check, rig: Rig, stroke: Stroke, settings: dict[str, Any]) -> FeasibilityReport:
     from flaprig.feasibility import check_feasibility
 
-    rig = _rig(case)
     limits = _limits(args, rig, rig.motors)
     with progress("check") as told:
-        return check_feasibility(rig, case.stroke, limits=limits, progress=told, **settings)
+        return check_feasibility(rig, stroke, limits=limits, progress=told, **settings)
 
 
 def _scaled(
-    args: Check, case: Case, settings: dict[str, Any]
+    args: Check, rig: Rig, stroke: Stroke, settings: dict[str, Any]
 ) -> tuple[FrequencyRange, ServoChoice]:
     from flaprig.scaling import highest_frequency
     from flaprig.servo_choice import smallest_servo
 
-    rig = _rig(case)
     limits = _limits(args, rig, rig.motors)
     with progress("frequencies") as told:
-        found = highest_frequency(rig, case.stroke, limits, told, **settings)
+        found = highest_frequency(rig, stroke, limits, told, **settings)
     with progress("servos") as told:
         choice = smallest_servo(
-            rig, case.stroke, lambda motors: _limits(args, rig, motors), told, **settings
+            rig, stroke, lambda motors: _limits(args, rig, motors), told, **settings
         )
     return found, choice
 
 
-def _rig(case: Case) -> Rig:
-    from flaprig.rig import Rig
-
-    return Rig.load().with_(
-        wing=case.wing, fluid=case.fluid, model=case.model, frequency=case.stroke.frequency
-    )
-
-
 def _limits(args: Check, rig: Rig, motors: Motors) -> Limits | None:
     """None: the rig's own."""
-    from flaprig.limits import PAPER_KINEMATICS, rig_limits
+    from flaprig.limits import PAPER_KINEMATICS
+    from flaprig.set_points import own_limits
 
     if args.limits == "servo":
         return None
-    return rig_limits(motors, rig.wing, rig.fluid).with_accelerations(PAPER_KINEMATICS)
+    own = own_limits(rig.with_(motors=motors), rig.spec().compile())
+    return own.with_accelerations(PAPER_KINEMATICS)
 
 
 def _write(folder: Folder, case: Case, report: FeasibilityReport, summary: dict[str, Any]) -> None:

@@ -93,16 +93,22 @@ def _case(model: AirModel, cycles: int) -> Case:
 
 def _run_all(cycles: int, folder: Folder) -> tuple[dict[str, Result], dict[str, dict[str, Any]]]:
     """Results and summaries by name, both models, prescribed and in the twin."""
+    # mujoco takes half a second to import: not for --help
+    from flaprig.rig import Rig
+
     results: dict[str, Result] = {}
     summaries: dict[str, dict[str, Any]] = {}
     for model in MODELS:
         case, name = _case(model, cycles), model.label
+        rig = Rig.load().with_(model=model)
         with progress(f"{name}, prescribed") as told:
             result = flaprig.simulate(
-                case.wing, case.stroke, model, case.fluid, cycles, progress=told
+                *(case.wing, case.stroke, model, case.fluid, cycles),
+                progress=told,
+                buoyancy=rig.buoyancy,
             )
         with progress(f"{name}, twin") as told:
-            done = fly(case, TIME_STEP, told)
+            done = fly(rig, case, TIME_STEP, told)
         results |= {f"{name}, prescribed": result, f"{name}, twin": done.result}
         summaries |= {f"{name}, prescribed": result.summary(), f"{name}, twin": done.summary()}
         if isinstance(model, UVLM):

@@ -12,8 +12,8 @@ from tyro.conf import arg
 
 from flaprig.aero.models import QuasiSteady
 from flaprig.commands import options
+from flaprig.commands.rig_options import RigFile, rig_of, rig_summary
 from flaprig.commands.run_output import Case
-from flaprig.commands.twin import rig_of
 from flaprig.report.folder import Folder
 from flaprig.report.numbers import as_json
 from flaprig.report.table import print_notices
@@ -34,6 +34,7 @@ class Export:
     that the servos cannot follow is not written: exit status 1.
 
     Attributes:
+        rig: MJCF file of a rig: its wing, fluid and servos count, but for what other options say.
         cycles: that are followed between start and stop.
         interval: of the servos' control [s].
         allow_nearest: write the nearest stroke within the limits, where the one asked for is beyond
@@ -45,6 +46,7 @@ class Export:
     stroke: options.StrokeOptions = field(default_factory=options.StrokeOptions)
     wing: options.WingOptions = field(default_factory=options.WingOptions)
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
+    rig: RigFile = None
     cycles: int = 5
     interval: float = 0.01
     allow_nearest: bool = False
@@ -66,10 +68,9 @@ def run(args: Export, folder: Folder) -> int:
     from flaprig.logs import XM430_RIG
     from flaprig.set_points import own_limits
 
-    case = Case.of(
-        args.stroke.read(), args.wing.build(), QuasiSteady(), args.fluid.build(), args.cycles
-    )
-    rig = rig_of(case)
+    asked = args.stroke.read()
+    rig = rig_of(args.rig, asked.stroke, args.wing, args.fluid, QuasiSteady())
+    case = Case.of(asked, rig, args.cycles)
     limits = own_limits(rig, rig.compile())
     nearest = project(case.stroke, limits)
     if nearest.distance_max > TOLD and not args.allow_nearest:
@@ -84,6 +85,7 @@ def run(args: Export, folder: Folder) -> int:
     notices = case.all_notices(*played.notices)
     summary = {
         "command": "export",
+        **rig_summary(rig),
         "interval_s": played.interval,
         "set_points": len(played.motion.time),
         "joined_at_s": played.joined_at,

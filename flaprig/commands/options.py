@@ -5,23 +5,28 @@ Degrees live here and nowhere else: every builder returns objects in SI units an
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Annotated, Any, Literal
 
 from tyro.conf import arg
 
 from flaprig import _checks as check
 from flaprig.aero.coefficients import DICKINSON_1999, HOVER_TANK, LEE_2016
-from flaprig.aero.models import SUCTION_EFFICIENCY, UVLM, QuasiSteady
+from flaprig.aero.models import UVLM, QuasiSteady
 from flaprig.commands.stroke_options import StrokeOptions
 from flaprig.fluid import WATER, Fluid
-from flaprig.wing import PITCH_AXIS, RIG_WING, Wing
+from flaprig.wing import RIG_WING, Wing
 
 __all__ = ["FluidOptions", "ModelOptions", "StrokeOptions", "WingOptions"]
 
-# the models' own defaults, shown by --help
-_UVLM, _QUASI_STEADY = UVLM(), QuasiSteady()
-_STEPS = f"(default: {_UVLM.steps_per_cycle}, {_QUASI_STEADY.steps_per_cycle})"
+_UVLM = UVLM()
+# the models that --model names
+_NAMED: dict[str, UVLM | QuasiSteady] = {
+    "uvlm": _UVLM,
+    "uvlm-extended": UVLM.extended(),
+    "uvlm-accurate": UVLM.accurate(),
+    "quasi-steady": QuasiSteady(),
+}
 # options of the vortex lattice alone, by field of ModelOptions
 _LATTICE = ("chordwise", "spanwise", "core", "wake_cycles", "threads")
 _COEFFICIENTS = {
@@ -31,12 +36,18 @@ _COEFFICIENTS = {
 }
 
 
+def _own(whose: str, metavar: str, name: str | None = None) -> Any:
+    """An option whose default is said elsewhere: in the rig's file, or by the model."""
+    return arg(name=name, metavar=metavar, help_behavior_hint=f"(default: {whose})")
+
+
 @dataclass(frozen=True)
 class WingOptions:
-    """The wing; the rig's own unless said otherwise.
+    """The wing: that of the rig's file, but for what is given here.
 
     Attributes:
-        planform: a rectangle, or Ellington's beta planform (chord is then the mean chord).
+        planform: a rectangle, or Ellington's beta planform (chord is then the mean chord); the
+            rig's own planform when left out.
         span: root to tip [m].
         chord: chord, or mean chord [m].
         root_offset: sweep axis to root [m].
@@ -45,30 +56,70 @@ class WingOptions:
         r2: beta planform: radius of the second moment [spans]; from r1 when left out.
     """
 
-    planform: Literal["rectangle", "beta"] = "rectangle"
-    span: float = RIG_WING.span
-    chord: float = RIG_WING.mean_chord
-    root_offset: float = RIG_WING.root_offset
-    pitch_axis: float = PITCH_AXIS
+    planform: Annotated[
+        Literal["rectangle", "beta"] | None, _own("the rig's", "{rectangle,beta}")
+    ] = None
+    span: Annotated[float | None, _own("the rig's", "FLOAT")] = None
+    chord: Annotated[float | None, _own("the rig's", "FLOAT")] = None
+    root_offset: Annotated[float | None, _own("the rig's", "FLOAT")] = None
+    pitch_axis: Annotated[float | None, _own("the rig's", "FLOAT")] = None
     r1: Annotated[float | None, arg(metavar="FLOAT", help_behavior_hint="(optional)")] = None
     r2: Annotated[float | None, arg(metavar="FLOAT", help_behavior_hint="(optional)")] = None
 
-    def build(self) -> Wing:
-        """The wing.
+    def build(self, own: Wing = RIG_WING) -> Wing:
+        """The wing; plate thickness and density are the rig's.
+
+        Args:
+            own: the rig's.
 
         Raises:
-            ValueError: a value out of range, or radii of a beta planform for a rectangle.
+            ValueError: a value out of range, or radii of a beta planform for another.
         """
         if self.planform == "beta":
+            span, chord, root, axis = self._sizes(own)
             r1 = 0.5 if self.r1 is None else self.r1
-            return Wing.beta(self.span, self.chord, r1, self.r2, self.root_offset, self.pitch_axis)
-        _refuse_changed(self, ["r1", "r2"], "with --planform rectangle")
-        return Wing.rectangular(self.span, self.chord, self.root_offset, self.pitch_axis)
+            return Wing.beta(
+                *(span, chord, r1, self.r2, root, axis),
+                thickness=own.thickness,
+                density=own.density,
+            )
+        rectangle = self.planform is not None or own.is_rectangle
+        when = "with --planform rectangle" if rectangle else "unless --planform is beta"
+        _refuse_changed(self, ["r1", "r2"], when)
+        if self == WingOptions():
+            return own
+        if rectangle:
+            return Wing.rectangular(*self._sizes(own), own.thickness, own.density)
+        return self._scaled(own)
+
+    def _sizes(self, own: Wing) -> tuple[float, float, float, float]:
+        """Span, mean chord, root offset, pitch axis."""
+        widest = max(range(len(own.chord)), key=own.chord.__getitem__)
+        usual = (
+            *(own.span, own.mean_chord, own.root_offset),
+            -own.leading_edge[widest] / own.chord[widest],
+        )
+        given = (self.span, self.chord, self.root_offset, self.pitch_axis)
+        span, chord, root, axis = (u if g is None else g for g, u in zip(given, usual, strict=True))
+        return span, chord, root, axis
+
+    def _scaled(self, own: Wing) -> Wing:
+        """The rig's own planform, stretched."""
+        span, mean_chord, root, axis = self._sizes(own)
+        along = check.positive("options", "--span", span, "m") / own.span
+        across = check.positive("options", "--chord", mean_chord, "m") / own.mean_chord
+        chord = [across * c for c in own.chord]
+        leading = [across * x for x in own.leading_edge]
+        if self.pitch_axis is not None:
+            axis = check.in_range("options", "--pitch-axis", axis, 0.0, 1.0, "chords")
+            leading = [-axis * c for c in chord]
+        radius = [root + along * (r - own.root_offset) for r in own.radius]
+        return Wing.from_table(radius, chord, leading, thickness=own.thickness, density=own.density)
 
 
 @dataclass(frozen=True)
 class FluidOptions:
-    """The fluid; water unless said otherwise.
+    """The fluid: that of the rig's file, but for what is given here.
 
     Attributes:
         density: mass density [kg/m3].
@@ -76,22 +127,33 @@ class FluidOptions:
         wind: uniform velocity of the fluid, z up, sweep measured from x [m/s].
     """
 
-    density: float = WATER.density
-    viscosity: float = WATER.kinematic_viscosity
-    wind: tuple[float, float, float] = WATER.wind
+    density: Annotated[float | None, _own("the rig's", "FLOAT")] = None
+    viscosity: Annotated[float | None, _own("the rig's", "FLOAT")] = None
+    wind: Annotated[tuple[float, float, float] | None, _own("the rig's", "FLOAT FLOAT FLOAT")] = (
+        None
+    )
 
-    def build(self) -> Fluid:
-        """The fluid. ValueError for a value that is not a positive number."""
-        return Fluid(self.density, self.viscosity, self.wind)
+    def build(self, own: Fluid = WATER) -> Fluid:
+        """The fluid. ValueError for a value that is not a positive number.
+
+        Args:
+            own: the rig's.
+        """
+        return Fluid(
+            own.density if self.density is None else self.density,
+            own.kinematic_viscosity if self.viscosity is None else self.viscosity,
+            own.wind if self.wind is None else self.wind,
+        )
 
 
 @dataclass(frozen=True)
 class ModelOptions:
-    """How the fluid is modelled.
+    """How the fluid is modelled: as in the rig's file, but for what is given here.
 
     Attributes:
         kind: the paper's vortex lattice with its free wake; the lattice extended for separated
-            flow, or as accurate as its panels in attached flow; quasi-steady blade elements.
+            flow, or as accurate as its panels in attached flow; quasi-steady blade elements. One
+            that is named has its own defaults; without a name the rig's own model is changed.
         steps_per_cycle: wake rows shed (uvlm) or loads reported (quasi-steady) in one cycle.
         chordwise: uvlm: panels along the chord.
         spanwise: uvlm: panels along the span.
@@ -104,43 +166,43 @@ class ModelOptions:
     """
 
     kind: Annotated[
-        Literal["uvlm", "uvlm-extended", "uvlm-accurate", "quasi-steady"], arg(name="model")
-    ] = "uvlm"
-    steps_per_cycle: Annotated[int | None, arg(metavar="INT", help_behavior_hint=_STEPS)] = None
-    chordwise: int = _UVLM.chordwise
-    spanwise: int = _UVLM.spanwise
-    suction_efficiency: float = SUCTION_EFFICIENCY
-    core: float = _UVLM.core
-    wake_cycles: float = _UVLM.wake_cycles
-    threads: int = _UVLM.threads
-    coefficients: Literal["dickinson1999", "lee2016", "hover-tank"] = "dickinson1999"
+        Literal["uvlm", "uvlm-extended", "uvlm-accurate", "quasi-steady"] | None,
+        _own("the rig's", "{uvlm,uvlm-extended,uvlm-accurate,quasi-steady}", name="model"),
+    ] = None
+    steps_per_cycle: Annotated[int | None, _own("the model's", "INT")] = None
+    chordwise: Annotated[int | None, _own("the model's", "INT")] = None
+    spanwise: Annotated[int | None, _own("the model's", "INT")] = None
+    suction_efficiency: Annotated[float | None, _own("the model's", "FLOAT")] = None
+    core: Annotated[float | None, _own("the model's", "FLOAT")] = None
+    wake_cycles: Annotated[float | None, _own("the model's", "FLOAT")] = None
+    threads: Annotated[int | None, _own("the model's", "INT")] = None
+    coefficients: Annotated[
+        Literal["dickinson1999", "lee2016", "hover-tank"] | None,
+        _own("the model's", "{dickinson1999,lee2016,hover-tank}"),
+    ] = None
 
-    def build(self) -> UVLM | QuasiSteady:
+    def build(self, own: UVLM | QuasiSteady = _UVLM) -> UVLM | QuasiSteady:
         """The model.
+
+        Args:
+            own: the rig's.
 
         Raises:
             ValueError: a value out of range, or an option of the other model.
         """
-        if self.kind != "uvlm":
-            _refuse_changed(self, ["suction_efficiency"], f"with --model {self.kind}")
-        if self.kind != "quasi-steady":
-            return self._lattice()
-        _refuse_changed(self, list(_LATTICE), "with --model quasi-steady")
-        steps = self._steps(_QUASI_STEADY.steps_per_cycle)
-        return QuasiSteady(_COEFFICIENTS[self.coefficients], steps_per_cycle=steps)
-
-    def _lattice(self) -> UVLM:
-        _refuse_changed(self, ["coefficients"], f"with --model {self.kind}")
-        lattice = {name: getattr(self, name) for name in _LATTICE}
-        lattice["steps_per_cycle"] = self._steps(_UVLM.steps_per_cycle)
-        if self.kind == "uvlm-extended":
-            return UVLM.extended(**lattice)
-        if self.kind == "uvlm-accurate":
-            return UVLM.accurate(**lattice)
-        return UVLM(suction_efficiency=self.suction_efficiency, **lattice)
-
-    def _steps(self, usual: int) -> int:
-        return usual if self.steps_per_cycle is None else self.steps_per_cycle
+        base = own if self.kind is None else _NAMED[self.kind]
+        kind = self.kind or ("quasi-steady" if isinstance(own, QuasiSteady) else "uvlm")
+        if kind != "uvlm":
+            _refuse_changed(self, ["suction_efficiency"], f"with --model {kind}")
+        if isinstance(base, QuasiSteady):
+            _refuse_changed(self, list(_LATTICE), f"with --model {kind}")
+        else:
+            _refuse_changed(self, ["coefficients"], f"with --model {kind}")
+        named = (*_LATTICE, "steps_per_cycle", "suction_efficiency")
+        changes = {name: getattr(self, name) for name in named if getattr(self, name) is not None}
+        if self.coefficients is not None:
+            changes["coefficients"] = _COEFFICIENTS[self.coefficients]
+        return replace(base, **changes)
 
 
 def _flag(field: str) -> str:

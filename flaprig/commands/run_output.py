@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rich.console import Console
@@ -26,6 +26,9 @@ from flaprig.report.table import print_notices, print_run
 from flaprig.report.wake import draw_wake
 from flaprig.strokes import Stroke
 from flaprig.wing import Wing
+
+if TYPE_CHECKING:
+    from flaprig.rig import Rig
 
 # amplitudes are the same within this share, and within this angle [rad]
 SAME, SAME_ANGLE = 0.005, 2.0 * np.pi / 4096.0
@@ -53,7 +56,7 @@ class Case:
         model: the model of the fluid.
         fluid: the fluid.
         cycles: number of cycles.
-        notices: what the stroke's file made doubtful.
+        notices: what the files of rig and stroke made doubtful.
         numbers: what a log was, for the summary.
     """
 
@@ -66,11 +69,12 @@ class Case:
     numbers: dict[str, Any] = field(default_factory=dict)
 
     @classmethod
-    def of(
-        cls, asked: AskedStroke, wing: Wing, model: AirModel, fluid: Fluid, cycles: int
-    ) -> Case:
-        """The case of a stroke with what its file made doubtful."""
-        return cls(wing, asked.stroke, model, fluid, cycles, asked.notices, asked.numbers)
+    def of(cls, asked: AskedStroke, rig: Rig, cycles: int) -> Case:
+        """The case of a stroke on a rig, with what both files made doubtful."""
+        notices = (*rig.notices, *asked.notices)
+        return cls(
+            rig.wing, asked.stroke, rig.model, rig.fluid, cycles, notices, asked.numbers
+        )
 
     @property
     def title(self) -> str:

@@ -12,6 +12,7 @@ import flaprig
 from flaprig.aero.models import UVLM
 from flaprig.commands import options
 from flaprig.commands.progress import progress
+from flaprig.commands.rig_options import RigFile, rig_of, rig_summary
 from flaprig.commands.run_output import (
     Case,
     tell,
@@ -31,6 +32,8 @@ class Simulate:
     paper in water on its sinusoidal stroke.
 
     Attributes:
+        rig: MJCF file of a rig: its wing, fluid, servos and model of the fluid count, but for what
+            other options say.
         cycles: number of cycles; means are over the third to the last, at most three.
         json: print exactly one JSON object and nothing else.
         out: folder for histories.csv, histories.npz, summary.json, forces.png and wake.png.
@@ -40,6 +43,7 @@ class Simulate:
     wing: options.WingOptions = field(default_factory=options.WingOptions)
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
     model: options.ModelOptions = field(default_factory=options.ModelOptions)
+    rig: RigFile = None
     cycles: int = 5
     json: bool = False
     out: Annotated[Path | None, arg(metavar="DIR", help_behavior_hint="(optional)")] = None
@@ -50,23 +54,23 @@ def run(args: Simulate, folder: Folder) -> None:
 
     Raises:
         ValueError: bad input.
+        ImportError: the plugin library is missing or does not fit MuJoCo.
         FloatingPointError: the loads are not finite.
         OSError: a file cannot be read or written.
     """
-    case = Case.of(
-        args.stroke.read(),
-        args.wing.build(),
-        args.model.build(),
-        args.fluid.build(),
-        args.cycles,
-    )
+    asked = args.stroke.read()
+    rig = rig_of(args.rig, asked.stroke, args.wing, args.fluid, args.model)
+    case = Case.of(asked, rig, args.cycles)
     folder.create()
     with timed() as spent, progress("simulate") as told:
         result = flaprig.simulate(
-            case.wing, case.stroke, case.model, case.fluid, case.cycles, progress=told
+            *(case.wing, case.stroke, case.model, case.fluid, case.cycles),
+            progress=told,
+            buoyancy=rig.buoyancy,
         )
     summary = {
         "command": "simulate",
+        **rig_summary(rig),
         **case.summary(),
         **result.summary(),
         "notices": case.all_notices(*result.notices),

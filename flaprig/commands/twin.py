@@ -11,6 +11,7 @@ from tyro.conf import arg
 from flaprig.aero.models import UVLM
 from flaprig.commands import options
 from flaprig.commands.progress import progress
+from flaprig.commands.rig_options import RigFile, rig_of, rig_summary
 from flaprig.commands.run_output import (
     WAKE_INSTANT,
     Case,
@@ -27,6 +28,7 @@ from flaprig.report.motors import draw_motors
 if TYPE_CHECKING:
     from flaprig.aero.air import Progress
     from flaprig.rig import Rig
+    from flaprig.twin import Twin as Machine
     from flaprig.twin import TwinRun
 
 
@@ -37,6 +39,8 @@ class Twin:
     Prints mean coefficients of the motion really made, with their spread from cycle to cycle.
 
     Attributes:
+        rig: MJCF file of a rig: its wing, fluid, servos and model of the fluid count, but for what
+            other options say.
         cycles: number of cycles; means are over the third to the last, at most three.
         time_step: of MuJoCo [s].
         json: print exactly one JSON object and nothing else.
@@ -49,6 +53,7 @@ class Twin:
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
     model: options.ModelOptions = field(default_factory=options.ModelOptions)
     servo: ServoOptions = field(default_factory=ServoOptions)
+    rig: RigFile = None
     cycles: int = 3
     time_step: float = 0.002
     json: bool = False
@@ -63,18 +68,15 @@ def run(args: Twin, folder: Folder) -> None:
         ImportError: the plugin library is missing or does not fit MuJoCo.
         OSError: a file cannot be read or written.
     """
-    case = Case.of(
-        args.stroke.read(),
-        args.wing.build(),
-        args.model.build(),
-        args.fluid.build(),
-        args.cycles,
-    )
+    asked = args.stroke.read()
+    rig = rig_of(args.rig, asked.stroke, args.wing, args.fluid, args.model)
+    case = Case.of(asked, rig, args.cycles)
     folder.create()
     with timed() as spent, progress("twin") as told:
-        done = fly(case, args.time_step, told, args.servo)
+        done = fly(rig, case, args.time_step, told, args.servo)
     summary = {
         "command": "twin",
+        **rig_summary(rig),
         **case.summary(),
         **done.summary(),
         "notices": case.all_notices(*done.notices),
@@ -86,7 +88,7 @@ def run(args: Twin, folder: Folder) -> None:
         write_motors(folder, done, case)
         write_forces(folder, case, done.result, title)
         if isinstance(case.model, UVLM):
-            write_flown_wake(folder, case, args)
+            write_flown_wake(folder, case, args.servo.twin(rig, args.time_step))
     tell(args.json, title, summary, folder)
 
 
@@ -96,21 +98,15 @@ def flown_title(case: Case, done: TwinRun) -> str:
 
 
 def fly(
-    case: Case, time_step: float, told: Progress | None, servo: ServoOptions | None = None
+    rig: Rig,
+    case: Case,
+    time_step: float,
+    told: Progress | None,
+    servo: ServoOptions | None = None,
 ) -> TwinRun:
     """The rig's run of a case."""
-    machine = (servo or ServoOptions()).twin(rig_of(case), time_step)
+    machine = (servo or ServoOptions()).twin(rig, time_step)
     return machine.run(case.stroke, case.cycles, told)
-
-
-def rig_of(case: Case) -> Rig:
-    """The rig with the case's wing, fluid and model."""
-    # mujoco takes half a second to import: not for --help
-    from flaprig.rig import Rig
-
-    return Rig.load().with_(
-        wing=case.wing, fluid=case.fluid, model=case.model, frequency=case.stroke.frequency
-    )
 
 
 def write_motors(folder: Folder, done: TwinRun, case: Case) -> None:
@@ -119,11 +115,10 @@ def write_motors(folder: Folder, done: TwinRun, case: Case) -> None:
     folder.write("motors.png", lambda draft: draw_motors(draft, done.motors, case.stroke, title))
 
 
-def write_flown_wake(folder: Folder, case: Case, args: Twin) -> None:
+def write_flown_wake(folder: Folder, case: Case, machine: Machine) -> None:
     """wake.png: the twin's own wake, from the plugin's state in the third cycle."""
     from flaprig.report.flown import flown_snapshot
 
-    machine = args.servo.twin(rig_of(case), args.time_step)
     with progress("wake"):
         shot, amplitudes = flown_snapshot(machine, case.stroke, WAKE_INSTANT)
     draw_wake_of(folder, shot, amplitudes[0], f"twin, {case.title_of(*amplitudes)}")

@@ -12,6 +12,7 @@ from tyro.conf import arg
 
 from flaprig import _checks as check
 from flaprig.commands import options
+from flaprig.commands.rig_options import RigFile, rig_of
 from flaprig.render import gl
 from flaprig.report.folder import Folder
 from flaprig.report.table import print_notices
@@ -33,6 +34,8 @@ class View:
     Says which it did, and how to get the better one.
 
     Attributes:
+        rig: MJCF file of a rig: its wing, fluid, servos and model of the fluid count, but for what
+            other options say.
         cycles: length of the video [cycles]; the window stays until it is closed.
         skip: cycles before the video begins, so that the wake is there.
         width: of the video [pixels], a multiple of 16.
@@ -46,6 +49,7 @@ class View:
     wing: options.WingOptions = field(default_factory=options.WingOptions)
     fluid: options.FluidOptions = field(default_factory=options.FluidOptions)
     model: options.ModelOptions = field(default_factory=options.ModelOptions)
+    rig: RigFile = None
     cycles: float = 1.0
     skip: float = 1.0
     width: int = 1280
@@ -65,16 +69,13 @@ def run(args: View, folder: Folder) -> None:
     # mujoco takes half a second to import: not for --help
     from flaprig.commands.rig_film import film_rig
     from flaprig.report.flight import Flight
-    from flaprig.rig import Rig
     from flaprig.twin import Twin
 
     asked = args.stroke.read()
     stroke = asked.stroke
-    rig = Rig.load().with_(
-        wing=args.wing.build(), fluid=args.fluid.build(), model=args.model.build()
-    )
+    rig = rig_of(args.rig, stroke, args.wing, args.fluid, args.model)
     form = _format(args)
-    print_notices(Console(), [*asked.notices, *_changes(Twin(rig), stroke)])
+    print_notices(Console(), [*rig.notices, *asked.notices, *_changes(Twin(rig), stroke)])
     if args.video is None and gl.has_display():
         show(Flight(Twin(rig), stroke))
         return

@@ -15,7 +15,8 @@ from flaprig.rig.names import (
     coordinates,
     readings,
 )
-from flaprig.rig.rig import RIG_FREQUENCY, Rig, weigh_stops
+from flaprig.rig.numbers import RIG_FREQUENCY
+from flaprig.rig.rig import Rig, weigh_stops
 
 __all__ = [
     "AIR",

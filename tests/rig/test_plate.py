@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
+
 import mujoco
 import numpy as np
 import pytest
@@ -17,6 +19,8 @@ WINGS = {
     "swept": Wing.from_table([0.02, 0.3], [0.05, 0.05], [-0.01, 0.05]),
     "waist": Wing.from_table([0.02, 0.1, 0.2], [0.08, 0.01, 0.08], thickness=0.002),
 }
+# what the geom was before
+OTHER = Wing.rectangular(0.1, 0.02, density=500.0)
 
 
 @pytest.fixture(params=WINGS.values(), ids=WINGS.keys())
@@ -25,11 +29,13 @@ def wing(request: pytest.FixtureRequest) -> Wing:
 
 
 def test_mass_and_inertia_are_the_wings(wing: Wing) -> None:
-    spec = mujoco.MjSpec()
-    body = spec.worldbody.add_body(name="wing")
-    geom = body.add_geom(name="plate", size=[1.0, 1.0, 1.0])
-    plate.mount(spec, geom, wing)
-    model = spec.compile()
+    root = ET.Element("mujoco")
+    body = ET.SubElement(ET.SubElement(root, "worldbody"), "body")
+    ET.SubElement(body, "geom", name="plate", size="1", euler="1 2 3", mass="7")
+    plate.write(root, OTHER, wing)
+    model = mujoco.MjModel.from_xml_string(ET.tostring(root, "unicode"))
+    # what was written is what the fluid sees
+    plate.require_same(model, wing)
     mass, centre, inertia = plate_properties(model)
     # meshes are stored in single precision
     assert mass == pytest.approx(wing.mass, rel=1e-6)
@@ -60,4 +66,4 @@ def test_mesh_is_closed_and_points_outwards(wing: Wing) -> None:
 
 
 def test_only_rectangles_are_boxes() -> None:
-    assert [name for name, wing in WINGS.items() if plate.is_rectangle(wing)] == ["rectangle"]
+    assert [name for name, wing in WINGS.items() if wing.is_rectangle] == ["rectangle"]

@@ -72,7 +72,8 @@ Wrench Instance::buoyancy(const mjModel* m) const {
   return {force, cross(centroid_, force)};
 }
 
-// all of the load but the added mass on the joints' acceleration
+// all of the fluid's dynamic load but the added mass on the joints' acceleration; buoyancy, which
+// acts on a wing at rest too, is kept apart: lift, drag and power are those of the motion
 void Instance::find_load(const mjModel* m, const mjData* d) {
   const double* state = Memory{d->plugin_state + m->plugin_stateadr[id_]}.air();
   if (air_->prepares()) {
@@ -83,7 +84,7 @@ void Instance::find_load(const mjModel* m, const mjData* d) {
   }
   const Loads loads = air_->loads(state, motion_);
   const Motion relative = relative_to_wind(motion_, air_->wind_w());
-  velocity_load_ = loads.base + loads.extra + buoyancy(m) +
+  velocity_load_ = loads.base + loads.extra +
                    added_mass_wrench(air_->added_mass(), relative.twist_rate);
   computed_ = true;
 }
@@ -95,8 +96,8 @@ void Instance::compute(const mjModel* m, mjData* d) {
   const int tree = m->body_treeid[body_];
   if (tree < 0 || !d->tree_awake[tree]) return;
   add_mass(m, d);
-  const Vec3 force = motion_.rotation * velocity_load_.force;
-  const Vec3 torque = motion_.rotation * velocity_load_.torque;
+  const Wrench load = velocity_load_ + buoyancy(m);
+  const Vec3 force = motion_.rotation * load.force, torque = motion_.rotation * load.torque;
   const mjtNum f[3] = {force.x, force.y, force.z}, t[3] = {torque.x, torque.y, torque.z};
   mj_applyFT(m, d, f, t, d->site_xpos + 3 * site_, body_, d->qfrc_passive);
 }
@@ -133,7 +134,7 @@ void Instance::advance(const mjModel* m, mjData* d, Memory memory) {
   log(m, air, mean, memory);
   const Twist rate = {joint_rate.linear + motion_.twist_rate.linear,
                       joint_rate.angular + motion_.twist_rate.angular};
-  put(on_mount(m, air, rate), memory.mount());
+  put(on_mount(m, air + buoyancy(m), rate), memory.mount());
   if (air_->prepares()) std::copy(ahead_.begin(), ahead_.end(), memory.air());
   air_->advance(memory.air(), motion_, dt);
   if (!(m->opt.disableflags & mjDSBL_SENSOR)) sense(m, d, memory, false);

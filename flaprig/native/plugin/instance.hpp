@@ -64,7 +64,7 @@ class Instance {
   bool computed_ = false;
   Motion motion_;                  // its twist_rate holds what remains at zero qacc
   std::vector<double> ahead_;      // the air's state at this instant, where it prepares
-  Wrench velocity_load_;           // all but the added mass on the acceleration
+  Wrench velocity_load_;           // all but buoyancy and the added mass on the acceleration
   std::vector<mjtNum> jacobian_;   // 6 x nv, wing axes: linear, then angular
   std::vector<mjtNum> scratch_;    // 6 x nv
 };

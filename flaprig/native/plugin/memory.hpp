@@ -13,7 +13,7 @@ struct Memory {
 
   static constexpr int kSize = 16;
 
-  double* wrench() { return data; }        // air and buoyancy, wing axes, about the origin
+  double* wrench() { return data; }        // air without buoyancy, wing axes, about the origin
   double& lift() { return data[6]; }       // against gravity [N]
   double& drag() { return data[7]; }       // against the motion of the reference radius [N]
   double& power() { return data[8]; }      // given to the fluid [W]

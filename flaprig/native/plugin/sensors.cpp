@@ -24,7 +24,7 @@ void Instance::log(const mjModel* m, const Wrench& air, const Twist& mean, Memor
   memory.power() = -dot(air.force, mean.linear) - dot(air.torque, mean.angular);
 }
 
-// air + buoyancy + weight - inertia of the wing's own body
+// air, buoyancy in it, + weight - inertia of the wing's own body
 Wrench Instance::on_mount(const mjModel* m, const Wrench& air, const Twist& rate) const {
   const mjtNum* site_q = m->site_quat + 4 * site_;
   const auto to_wing = [&](const mjtNum* v) {
