@@ -132,6 +132,7 @@ class FeasibilityReport:
             "flown_sweep_amplitude_rad": self.run.flown_amplitude(Axis.SWEEP),
             "flown_pitch_amplitude_rad": self.run.flown_amplitude(Axis.PITCH),
             "verdicts": {verdict.key: verdict.summary() for verdict in self.verdicts},
+            "notices": list(self.notices),
         }
         return {key: plain(value) for key, value in summary.items()}
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from math import ceil
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -152,7 +153,7 @@ class TwinRun:
         }
         return self.result.histories.columns() | self.motors.columns() | wrenches
 
-    def summary(self) -> dict[str, float | list[int] | list[float] | None]:
+    def summary(self) -> dict[str, Any]:
         """The result's summary, the servos' and the balance, with SI units in the names.
 
         What is not finite is None, as JSON has it.
@@ -175,6 +176,7 @@ class TwinRun:
             "flown_cd": self.result.cd * scale,
         }
         whole = {**self.result.summary(), **flown, **servos, **balance}
+        whole["notices"] = list(self.notices)
         return {name: plain(value) for name, value in whole.items()}
 
     def _servo_summary(self, axis: Axis) -> dict[str, float]:

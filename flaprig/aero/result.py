@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,8 +113,8 @@ class Result:
         first, last = self.averaged_cycles
         return history[(first - 1) * self.steps_per_cycle : last * self.steps_per_cycle]
 
-    def summary(self) -> dict[str, float | list[int] | None]:
-        """Means and peaks with SI units in the names, as the command line prints them.
+    def summary(self) -> dict[str, Any]:
+        """Means and peaks with SI units in the names, as the command line prints them; notices.
 
         The spread of a single cycle is None, so that the summary is valid JSON.
         """
@@ -128,7 +129,7 @@ class Result:
             "mean_lift_N": self.averaged(h.lift).mean(),
             "mean_drag_N": self.averaged(h.drag).mean(),
         }
-        coefficients: dict[str, float | list[int] | None] = {
+        coefficients: dict[str, Any] = {
             "cl": self.cl,
             "cl_spread": self.cl_spread,
             "cd": self.cd,
@@ -137,7 +138,8 @@ class Result:
             "lift_to_drag_spread": self.lift_to_drag_spread,
             "averaged_cycles": list(self.averaged_cycles),
         }
-        return {name: plain(value) for name, value in (coefficients | peaks).items()}
+        numbers = {name: plain(value) for name, value in (coefficients | peaks).items()}
+        return numbers | {"notices": list(self.notices)}
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the histories: CSV or NPZ by the path's ending, units in the header.

@@ -19,7 +19,13 @@ from flaprig.commands.twin import fly, write_motors
 from flaprig.report import style
 from flaprig.report.folder import Folder
 from flaprig.report.forces import Curve, draw_forces
-from flaprig.report.table import averaging, difference, print_comparison
+from flaprig.report.table import (
+    averaging,
+    difference,
+    named_notices,
+    print_comparison,
+    print_notices,
+)
 
 # measured in the paper on this stroke: mean C_L and L/D (table 1, sinusoidal row)
 PUBLISHED = {"cl": 1.94, "lift_to_drag": 0.74}
@@ -63,11 +69,12 @@ def run(args: Demo, folder: Folder) -> None:
     console = Console()
     with timed() as spent:
         results, summaries = _run_all(args.cycles, folder)
-    summary = {
+    summary: dict[str, Any] = {
         "command": "demo",
         "published": PUBLISHED,
         "runs": summaries,
         "difference_percent": _differences(summaries),
+        "notices": named_notices(summaries),
         **spent,
     }
     folder.write_summary(summary)
@@ -77,6 +84,7 @@ def run(args: Demo, folder: Folder) -> None:
         f"{averaging(summaries['UVLM, prescribed'])} Differences are from the paper. "
         "The UVLM's suction is calibrated on this C_L: it is no prediction."
     )
+    print_notices(console, summary["notices"])
     curves = [Curve(name, result, *_look(name)) for name, result in results.items()]
     folder.write("forces.png", lambda draft: draw_forces(draft, curves, title))
     write_wake(folder, _case(MODELS[0], args.cycles))

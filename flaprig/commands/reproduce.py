@@ -22,6 +22,7 @@ from flaprig.commands.verdict_of_strokes import judge
 from flaprig.report.folder import Folder
 from flaprig.report.numbers import as_json
 from flaprig.report.reproduction import draw_reproduction, print_reproduction
+from flaprig.report.table import named_notices, print_notices
 from flaprig.strokes import Stroke, SunTangStroke, load
 
 # the paper's section 2.2
@@ -114,6 +115,9 @@ def run(args: Reproduce, folder: Folder) -> None:
         "seed": args.seed,
         "bounds": {"sweep": args.sweep_acceleration, "pitch": args.pitch_acceleration},
         "cases": rows,
+        "notices": named_notices(
+            {f"{n}, {part}": row[part] for n, row in rows.items() for part in ("uvlm", "twin")}
+        ),
         "wall_time": {**spent, "judging_s": judging["wall_time_s"]},
     }
     folder.write_summary(summary)
@@ -125,6 +129,7 @@ def run(args: Reproduce, folder: Folder) -> None:
         print(as_json(summary))
         return
     print_reproduction(Console(), rows, summary)
+    print_notices(Console(), summary["notices"])
 
 
 def _training_root() -> Path:

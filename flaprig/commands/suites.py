@@ -108,6 +108,9 @@ def hand_out(folder: Folder, summary: Any, as_object: bool, page: Page | None, t
         page: which page is written instead of summary.json.
         text: of the page.
     """
+    if isinstance(summary, dict):
+        # what the parts doubt stands in their own tables
+        summary.setdefault("notices", [])
     if folder and page:
         folder.write_text(page.name, text)
     elif folder:

@@ -70,6 +70,15 @@ def print_notices(console: Console, notices: Iterable[str]) -> None:
         console.print(text, soft_wrap=True, highlight=False)
 
 
+def named_notices(summaries: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """Notices of several runs, each with the names of the runs that it is of."""
+    names: dict[str, list[str]] = {}
+    for name, summary in summaries.items():
+        for notice in summary.get("notices", ()):
+            names.setdefault(notice, []).append(name)
+    return [f"{' and '.join(runs)}: {notice}" for notice, runs in names.items()]
+
+
 def averaging(summary: Mapping[str, Any]) -> str:
     """What the means are over, as a sentence."""
     first, last = summary["averaged_cycles"]

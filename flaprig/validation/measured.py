@@ -99,7 +99,7 @@ class MeasuredStrokes:
             tuple(rows),
             data,
             lambda path: draw_measured(path, self.model, table),
-            NOTES,
+            (*NOTES, *(f"{s.name}: {notice}" for s in strokes for notice in s.notices)),
             (_models(table), _groups(self.model, chosen)),
         )
 

@@ -1,4 +1,8 @@
-"""Measured strokes from a file: wing, motion, fluid, and what the balance read."""
+"""Measured strokes from a file: wing, motion, fluid, and what the balance read.
+
+The motion of a case is two Fourier series, `phi` and `theta`, or a `log`: the name of a rig's table
+beside the file, which is read as every log. Its columns lift_N and drag_N stand for CL and CD.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +18,8 @@ from numpy.typing import NDArray
 from flaprig import _checks as check
 from flaprig._paths import assets_dir
 from flaprig.fluid import Fluid
-from flaprig.strokes import FourierStroke
+from flaprig.logs import RigLog, read_log
+from flaprig.strokes import FourierStroke, Stroke
 from flaprig.wing import Wing
 
 Array = NDArray[np.float64]
@@ -22,6 +27,8 @@ Array = NDArray[np.float64]
 # the 26 strokes that come with flaprig
 FILE = "validation/li_nabawy_2022.json"
 _OWNER = "measured"
+# columns of a log that stand for coefficients
+_COLUMNS = {"CL": "lift_N", "CD": "drag_N"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,11 +46,12 @@ class Measured:
         drag: the same, positive against the sweep.
         mean_lift: over the cycle.
         mean_drag: over the cycle.
+        notices: how a log was read; sentences.
     """
 
     name: str
     wing: Wing
-    stroke: FourierStroke
+    stroke: Stroke
     fluid: Fluid
     reynolds: float
     reference_force: float
@@ -51,6 +59,7 @@ class Measured:
     drag: Array
     mean_lift: float
     mean_drag: float
+    notices: tuple[str, ...] = ()
 
     @property
     def lift_to_drag(self) -> float:
@@ -73,10 +82,10 @@ def read(path: Path | None = None) -> list[Measured]:
     cases = content.get("cases") if isinstance(content, dict) else None
     if not isinstance(cases, list) or not cases:
         raise ValueError(f'{_OWNER}: {path} must hold an object with a list "cases"')
-    return [_stroke(number, case) for number, case in enumerate(cases)]
+    return [_stroke(number, case, path.parent) for number, case in enumerate(cases)]
 
 
-def _stroke(number: int, case: Any) -> Measured:
+def _stroke(number: int, case: Any, folder: Path) -> Measured:
     owner = f"{_OWNER}: case {number}"
     if not isinstance(case, dict):
         raise check.fail(owner, "entry", "an object", case)
@@ -87,18 +96,38 @@ def _stroke(number: int, case: Any) -> Measured:
     root, axis = get.number("root_offset_m"), get.number("pitch_axis_chord")
     # as the source: R2 is counted from the root
     speed = 2.0 * sweep * frequency * r2 * span
+    force = 0.5 * fluid.density * speed**2 * span * chord
+    log = read_log(folder / str(case["log"]), frequency) if "log" in case else None
+    lift, drag = (_forces(get, key, log, force) for key in ("CL", "CD"))
+    means = [
+        get.size(f"{key}_mean") if f"{key}_mean" in case or log is None else float(series[0])
+        for key, series in (("CL", lift), ("CD", drag))
+    ]
     return Measured(
         name=str(case.get("id", number)),
         wing=Wing.beta(span, chord, get.size("r1hat"), r2, root, axis),
-        stroke=_motion(frequency, get.series("phi"), get.series("theta")),
+        stroke=log.stroke if log else _motion(frequency, get.series("phi"), get.series("theta")),
         fluid=fluid,
         reynolds=get.size("Re"),
-        reference_force=0.5 * fluid.density * speed**2 * span * chord,
-        lift=get.series("CL"),
-        drag=get.series("CD"),
-        mean_lift=get.size("CL_mean"),
-        mean_drag=get.size("CD_mean"),
+        reference_force=force,
+        lift=lift,
+        drag=drag,
+        mean_lift=means[0],
+        mean_drag=means[1],
+        notices=log.notices if log else (),
     )
+
+
+def _forces(get: _Reader, key: str, log: RigLog | None, force: float) -> Array:
+    """A coefficient's Fourier series: of the file, or of a log's column in [N]."""
+    name = _COLUMNS[key]
+    if key in get.case or log is None:
+        return get.series(key)
+    if name not in log.columns:
+        raise ValueError(f"{get.owner}: {key} must be given, or a column {name} in the log")
+    course = log.course(name)
+    pairs = np.stack([course.cos, course.sin], axis=1).ravel()
+    return np.asarray(np.concatenate([[course.mean], pairs]) / force)
 
 
 @dataclass(frozen=True)
