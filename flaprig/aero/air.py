@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,10 @@ class WingLoads:
 
 
 class Air:
-    """The air around one wing, with its wake; advances by calls of `run`."""
+    """The air around one wing, with its wake; advances by calls of `run`.
+
+    `copy.copy`, `copy.deepcopy` and `pickle` give an air that continues bit for bit, and alone.
+    """
 
     def __init__(
         self,
@@ -56,6 +60,12 @@ class Air:
         settings = model.attributes(wing, fluid, frequency, sweep_amplitude) | attributes
         self.native = _native.Air(model.plugin, settings)
         self.state: Array = np.zeros(self.native.state_size)
+
+    def __copy__(self) -> Self:
+        """A copy whose wake goes its own way; it shares the solver, which remembers nothing."""
+        twin = object.__new__(type(self))
+        twin.__dict__.update(self.__dict__, state=self.state.copy())
+        return twin
 
     def run(self, motion: RigidMotion, step: float, progress: Progress | None = None) -> WingLoads:
         """Loads along the motion, whose instants are step seconds apart.

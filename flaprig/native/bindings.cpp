@@ -50,7 +50,13 @@ void require(bool ok, const char* what) {
 class PyAir {
  public:
   PyAir(const std::string& model, const Attributes& attributes)
-      : air_(make_air(read_specification(model_named(model), attributes))), uvlm_(dynamic_cast<Uvlm*>(air_.get())) {}
+      : model_(model),
+        attributes_(attributes),
+        air_(make_air(read_specification(model_named(model), attributes))),
+        uvlm_(dynamic_cast<Uvlm*>(air_.get())) {}
+
+  // what copy and pickle make it from again: it has no memory of its own
+  nb::tuple arguments() const { return nb::make_tuple(model_, attributes_); }
 
   int state_size() const { return air_->state_size(); }
   double reference_radius() const { return air_->reference_radius(); }
@@ -164,6 +170,8 @@ class PyAir {
             "position (n, 3), rotation (n, 3, 3), twist (n, 6), twist_rate (n, 6) must agree in n");
     return {static_cast<int>(n), dt, p.data(), r.data(), t.data(), a.data()};
   }
+  std::string model_;
+  Attributes attributes_;
   std::unique_ptr<Air> air_;
   Uvlm* uvlm_;
 };
@@ -212,6 +220,10 @@ NB_MODULE(_native, m) {
   nb::class_<PyAir>(m, "Air")
       .def(nb::init<const std::string&, const Attributes&>(), nb::arg("model"),
            nb::arg("attributes"))
+      .def("__reduce__",
+           [](nb::handle self) {
+             return nb::make_tuple(self.type(), nb::cast<const PyAir&>(self).arguments());
+           })
       .def_prop_ro("state_size", &PyAir::state_size)
       .def_prop_ro("reference_radius", &PyAir::reference_radius)
       .def_prop_ro("added_mass", &PyAir::added_mass, nb::rv_policy::move)
