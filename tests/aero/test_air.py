@@ -44,9 +44,7 @@ def flown(air: Air, first: int, last: int) -> WingLoads:
 
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
 @pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
-def test_copy_continues_bit_for_bit_and_alone(
-    way: Callable[[Any], Any], model: AirModel
-) -> None:
+def test_copy_continues_bit_for_bit_and_alone(way: Callable[[Any], Any], model: AirModel) -> None:
     air = Air(RIG_WING, WATER, model, STROKE.frequency, STROKE.sweep_amplitude)
     flown(air, 0, 70)
     twin = way(air)

@@ -87,6 +87,18 @@ Instance::Instance(const mjModel* m, int instance, Model model) : id_(instance),
   jacobian_.resize(6 * m->nv), scratch_.resize(6 * m->nv);
 }
 
+void Instance::receive(const mjModel* m, mjData* d, Memory memory) const {
+  const std::string fault = make_sound(*air_, memory.air(), m->opt.timestep);
+  if (fault.empty()) return;
+  mjWarningStat& count = d->warning[mjWARN_BADQPOS];
+  count.lastinfo = id_;
+  if (count.number++ > 0) return;
+  const char* name = m->names + m->name_pluginadr[id_];
+  mju_warning("%s \"%s\": plugin_state is none that a run leaves behind (%s); the wake is cleared "
+              "at time %g",
+              kModelNames[static_cast<int>(model_)], name, fault.c_str(), d->time);
+}
+
 // MuJoCo leaves out the off-diagonal inertia of bodies that it calls simple
 void Instance::check_dofs(const mjModel* m) const {
   auto& dofs = const_cast<std::vector<int>&>(dofs_);

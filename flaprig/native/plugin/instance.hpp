@@ -29,6 +29,9 @@ class Instance {
   // throws std::invalid_argument with one sentence
   Instance(const mjModel* m, int instance, Model model);
 
+  // A state that no run leaves behind is emptied, and counted in d->warning as MuJoCo counts a bad
+  // qpos; the first such warning is printed. Before compute and advance.
+  void receive(const mjModel* m, mjData* d, Memory memory) const;
   // adds the air's mass to d->M and the rest of its load to d->qfrc_passive
   void compute(const mjModel* m, mjData* d);
   // the step that `compute` began is over: remember its loads, move the wake

@@ -122,6 +122,7 @@ void compute(const mjModel* m, mjData* d, int id, int capability) {
   if (capability == mjPLUGIN_SENSOR) {
     instance->sense(m, d, memory_of(m, d, id), true);
   } else {
+    instance->receive(m, d, memory_of(m, d, id));
     rebuild_mass(m, d, id);
     instance->compute(m, d);
   }
@@ -134,6 +135,7 @@ void advance(const mjModel* m, mjData* d, int id) {
   char message[kMessage];
   const bool good = guarded(m, id, model, message, [&] {
     require_options(m);
+    instance->receive(m, d, memory_of(m, d, id));
     instance->advance(m, d, memory_of(m, d, id));
   });
   if (!good) mju_error("%s", message);
