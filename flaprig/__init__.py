@@ -1,6 +1,7 @@
 """flaprig: the digital twin of a robotic flapping wing."""
 
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from flaprig.aero.batch import simulate_batch
@@ -42,6 +43,7 @@ __all__ = [
     "TwinRun",
     "Wing",
     "check_feasibility",
+    "load_plugins",
     "simulate",
     "simulate_batch",
 ]
@@ -55,6 +57,24 @@ _LATE = {
     "TwinRun": "twin",
     "check_feasibility": "feasibility",
 }
+
+
+def load_plugins() -> Path:
+    """Make flaprig.uvlm and flaprig.quasi_steady known to MuJoCo, for models that name them.
+
+    Once in a process is enough, before the first such model is loaded; again does nothing more.
+    flaprig's own `Rig` and `Twin` call it; importing flaprig does not, nor does it import MuJoCo.
+
+    Returns:
+        Path of the plugin library that is loaded.
+
+    Raises:
+        ImportError: another MuJoCo version is installed, the library was not built, does not load,
+            or another copy of it is already in this process.
+    """
+    from flaprig.native import library
+
+    return library.load()
 
 
 def __getattr__(name: str) -> Any:

@@ -156,6 +156,9 @@ def _fit_motor(actuator: Any, motor: Motor) -> None:
         motorconst=[0.0, 0.0], resistance=0.0, ctrlspec=INPUTS, **motor.dcmotor
     )
     actuator.armature = motor.rotor_inertia
+    # one range for position, velocity and torque: it must not clip any of them
+    widest = max(motor.no_load_speed, motor.stall_torque, np.pi / 2.0)
+    actuator.ctrlrange = [-widest, widest]
 
 
 def _fill_fluid(spec: mujoco.MjSpec, rig: Rig) -> None:

@@ -201,8 +201,8 @@ def test_only_site_of_another_name_is_taken_with_a_warning() -> None:
         ("", "frame", 'body "wing" has none'),
         ("", None, 'site must be given: .*body "wing" has none'),
         (pair("a", "b"), None, 'body "wing" has "a", "b"'),
-        (pair("a", "b"), "c", 'own body, got "c"; body "wing" has "a", "b"'),
-        (pair("x_frame", "y_frame"), "frame", 'got "frame", which fits several; .*"x_frame", "y_'),
+        (pair("a", "b"), "c", 'own body .body "wing" has "a", "b".*, got "c"$'),
+        (pair("x_frame", "y_frame"), "frame", '"x_frame", "y_frame"; several fit.*, got "frame"$'),
         ("<site/><site name='b'/>", "c", 'has one without a name, "b"'),
     ],
 )

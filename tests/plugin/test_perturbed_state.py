@@ -89,7 +89,7 @@ def test_step_clears_what_is_no_wake(name: str, air: dict[str, str], told: list[
         data.warning.number[:] = 0
         told.clear()
         mujoco.mj_step(model, data)
-        assert data.warning.number.tolist() == [0, 0, 0, 1, 0, 0, 0]
+        assert data.warning.number.tolist() == [0, 0, 0, 0, 0, 1, 0]
         assert len(told) == 1 and f"{name} is " in told[0] and "the wake is cleared" in told[0]
         # it began anew in this step
         assert len(wake_of(model, data, air)) <= 1
@@ -162,7 +162,7 @@ def test_warning_is_counted_at_every_step_and_told_once(told: list[str]) -> None
     for count in range(1, 4):
         data.plugin_state[OWN_MEMORY + ROWS] = -1
         mujoco.mj_step(model, data)
-        assert data.warning[mujoco.mjtWarning.mjWARN_BADQPOS].number == count
+        assert data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number == count
     assert len(told) == 1
 
 

@@ -81,7 +81,7 @@ void Instance::tell_doubts(const mjModel* m) {
 void Instance::receive(const mjModel* m, mjData* d, Memory memory) const {
   const std::string fault = make_sound(*air_, memory.air(), m->opt.timestep);
   if (fault.empty()) return;
-  mjWarningStat& count = d->warning[mjWARN_BADQPOS];
+  mjWarningStat& count = d->warning[mjWARN_BADQACC];
   count.lastinfo = id_;
   if (count.number++ > 0) return;
   char time[40];

@@ -42,7 +42,7 @@ class Instance {
   Instance(const mjModel* m, int instance, Model model);
 
   // A state that no run leaves behind is emptied, and counted in d->warning as MuJoCo counts a bad
-  // qpos; the first such warning is printed. Before compute and advance.
+  // qacc; the first such warning is printed. Before compute and advance.
   void receive(const mjModel* m, mjData* d, Memory memory) const;
   // the doubts of options that were changed since the model was compiled
   void tell_doubts(const mjModel* m);

@@ -189,7 +189,20 @@ void add() {
   mjp_registerPlugin(&plugin);
 }
 
+// Of MuJoCo's word on a plugin that it does not know, its name is the one thing that a model file can
+// choose: a file that names this one first is told by it what is missing. It does nothing.
+void add_hint() {
+  mjpPlugin plugin;
+  mjp_defaultPlugin(&plugin);
+  plugin.name = "flaprig (first call flaprig.load_plugins())";
+  plugin.capabilityflags = mjPLUGIN_PASSIVE;
+  plugin.nstate = [](const mjModel*, int) { return 0; };
+  plugin.compute = [](const mjModel*, mjData*, int, int) {};
+  mjp_registerPlugin(&plugin);
+}
+
 mjPLUGIN_LIB_INIT(flaprig) {
+  add_hint();
   add<Model::kQuasiSteady>();
   add<Model::kUvlm>();
 }
