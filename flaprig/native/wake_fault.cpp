@@ -1,8 +1,9 @@
 // Whether the numbers of a wake are those of a run: the state is MuJoCo's and the user's, who save,
 // perturb and exchange it.
 
-#include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 
 #include "wake.hpp"
 
@@ -15,7 +16,17 @@ constexpr double kShortestTime = 1e-12, kLongestTime = 1e6;
 // false for NaN
 bool within(double x, double low, double high) { return x >= low && x <= high; }
 
-bool whole(double x, double low, double high) { return within(x, low, high) && x == std::floor(x); }
+// within the range of int
+bool whole(double x, double low, double high) {
+  return within(x, low, high) && x == static_cast<int>(x);
+}
+
+// of a number from 1: nothing in its mantissa. This is asked of each row in every step
+bool is_power_of_two(double x) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return (bits & ((std::uint64_t{1} << 52) - 1)) == 0;
+}
 
 std::string clause(const char* name, double value, const char* allowed) {
   char text[200];
@@ -64,8 +75,7 @@ std::string Wake::fault_of_ticks() const {
   double newer = 0, last = 1;
   for (int row = 0; row < n; ++row) {
     const double ticks = w.ticks()[row];
-    int exponent;
-    const bool merged = whole(ticks, last, 2.0 * longest) && std::frexp(ticks, &exponent) == 0.5;
+    const bool merged = within(ticks, last, 2.0 * longest) && is_power_of_two(ticks);
     if (!merged || (detail == 0 && ticks != 1)) {
       return clause("ticks of a row", ticks,
                     detail == 0 ? "1" : "a power of two, not below those of newer rows");

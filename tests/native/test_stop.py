@@ -20,6 +20,8 @@ from flaprig.native import _native
 stroke = SunTangStroke(0.2, np.pi / 3, np.pi / 4, 0.3, 0.3)
 large = UVLM(chordwise=16, spanwise=32, steps_per_cycle=1000)
 {setup}
+# a shell starts its background jobs without Ctrl-C
+signal.signal(signal.SIGINT, signal.default_int_handler)
 begun = time.process_time()
 def interrupt():
     while time.process_time() < begun + 1:
