@@ -10,7 +10,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from flaprig.native import library
 from tests.plugin.models import BLADES, FREE, PLATE, document, instance, load, two_hinges, wing
 
 mjcf = pytest.importorskip("dm_control.mjcf")
@@ -66,11 +65,6 @@ WAYS: dict[str, Callable[[dict[str, str], Path], mujoco.MjModel]] = {
     "attach": by_element,
     "dm_control": by_mjcf,
 }
-
-
-@pytest.fixture(autouse=True)
-def _plugins() -> None:
-    library.load()
 
 
 # MuJoCo's own word on an empty prefix
@@ -201,8 +195,8 @@ def test_only_site_of_another_name_is_taken_with_a_warning() -> None:
         ("", "frame", 'body "wing" has none'),
         ("", None, 'site must be given: .*body "wing" has none'),
         (pair("a", "b"), None, 'body "wing" has "a", "b"'),
-        (pair("a", "b"), "c", 'own body .body "wing" has "a", "b".*, got "c"$'),
-        (pair("x_frame", "y_frame"), "frame", '"x_frame", "y_frame"; several fit.*, got "frame"$'),
+        (pair("a", "b"), "c", 'body "wing" has "a", "b": .* own body, got "c"$'),
+        (pair("x_frame", "y_frame"), "frame", '"x_frame", "y_frame": .*, got "frame"$'),
         ("<site/><site name='b'/>", "c", 'has one without a name, "b"'),
     ],
 )

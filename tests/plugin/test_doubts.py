@@ -41,11 +41,6 @@ def with_geom(geom: str, option: str = WATER, plate: str = PLATE) -> str:
     return two_hinges(FREE, option).replace(PLATE, plate + geom)
 
 
-@pytest.fixture(autouse=True)
-def _plugins() -> None:
-    load("<mujoco/>")
-
-
 @pytest.mark.parametrize("option", [WATER, 'density="1.2"', 'viscosity="1e-5"'])
 @pytest.mark.parametrize("air", AIRS.values(), ids=AIRS)
 def test_second_fluid_is_said_with_its_cure(air: dict[str, str], option: str) -> None:
@@ -136,11 +131,9 @@ def test_mocap_body_that_carries_the_wing_is_named(joint: str, between: bool) ->
     assert doubts(document(instance(FREE), held.replace(' mocap="true"', ""))) == []
 
 
-def test_option_that_is_changed_later_is_said_once() -> None:
-    told: list[str] = []
+def test_option_that_is_changed_later_is_said_once(told: list[str]) -> None:
     model = load(two_hinges(FREE))
     data = random_state(model, 0)
-    mujoco.set_mju_user_warning(told.append)
     mujoco.mj_step(model, data, nstep=3)
     assert told == []
     model.opt.density = 1.2
@@ -148,5 +141,4 @@ def test_option_that_is_changed_later_is_said_once() -> None:
     assert len(told) == 1 and "MuJoCo's own fluid" in told[0]
     model.opt.density = 0
     mujoco.mj_step(model, data, nstep=3)
-    mujoco.set_mju_user_warning(None)
     assert len(told) == 1

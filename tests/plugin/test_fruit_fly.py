@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from flaprig.native import library
-
 pytest.importorskip("dm_control")
 # of dm_control and what it imports, and MuJoCo's word on the fly's own fluid
 pytestmark = pytest.mark.filterwarnings("ignore")
@@ -71,7 +69,6 @@ def environment(silent: bool = False) -> Any:
 
 def test_fruit_fly_goes_500_steps() -> None:
     """With noslip_iterations of the arena at work on its feet, and fluid on its wings."""
-    library.load()
     env = environment()
     env.reset()
     model, data = env.physics.model.ptr, env.physics.data.ptr
@@ -88,7 +85,7 @@ def test_fruit_fly_goes_500_steps() -> None:
 
 
 @pytest.mark.parametrize("silent", [False, True])
-def test_flys_own_fluid_is_said_or_silenced(silent: bool, caplog: pytest.LogCaptureFixture) -> None:
-    library.load()
+def test_flys_own_fluid_is_said_or_silenced(silent: bool, told: list[str]) -> None:
     environment(silent).reset()
-    assert (' acts on body "walker/wing_left" too' in caplog.text) == (not silent)
+    said = any(' acts on body "walker/wing_left" too' in text for text in told)
+    assert said == (not silent)

@@ -68,15 +68,6 @@ def ticks_of(air: dict[str, str], data: mujoco.MjData) -> tuple[slice, slice]:
     return slice(first, first + rows), slice(found, found + (rows + 1 - detail if old else 0))
 
 
-@pytest.fixture
-def told() -> list[str]:  # type: ignore[misc]
-    """What MuJoCo warns of."""
-    texts: list[str] = []
-    mujoco.set_mju_user_warning(texts.append)
-    yield texts
-    mujoco.set_mju_user_warning(None)
-
-
 @pytest.mark.parametrize("air", AIRS.values(), ids=AIRS)
 @pytest.mark.parametrize("name", FAULTS)
 def test_step_clears_what_is_no_wake(name: str, air: dict[str, str], told: list[str]) -> None:

@@ -113,9 +113,9 @@ Place place_of(const mjModel* m, int instance, const PlateSettings& plate) {
             "body " + owner + " has no site " + quoted(plate.site) + "; its only one, " +
                 quoted(std::string(sites[0].name)) + ", is taken as the wing frame"};
   }
-  throw std::invalid_argument("site must be the name of a site on the wing's own body (body " + owner +
-                              " " + listed(sites) + (found.empty() ? "" : "; several fit") + "), got " +
-                              quoted(plate.site));
+  throw std::invalid_argument("site must be one that fits alone, and body " + owner + " " +
+                              listed(sites) + ": site must be the name of a site on the wing's own "
+                              "body, got " + quoted(plate.site));
 }
 
 }  // namespace flaprig
