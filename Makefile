@@ -1,4 +1,4 @@
-# make demo | test | lint | build | stub | bench | clean. Everything lives in .venv; nothing else is touched.
+# make demo | test | lint | build | stub | bench | asan | clean. Everything lives in .venv; nothing else is touched.
 # PYTHON=python3.12 chooses the interpreter, CXX=clang++ the compiler.
 PYTHON ?= python3
 VENV ?= .venv
@@ -15,7 +15,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 stage = @printf '%s\n' '== $(1)'; \
 	{ $(2); } > $(LOG) 2>&1 || { cat $(LOG); printf '%s\n' '== failed: $(1)' >&2; exit 1; }
 
-.PHONY: demo test lint build stub bench clean
+.PHONY: demo test lint build stub bench asan clean
 .DEFAULT_GOAL := demo
 
 demo: build
@@ -48,6 +48,17 @@ bench:
 	@if $(BIN)/python -c 'import stable_baselines3' 2> /dev/null; then \
 		$(BIN)/python benchmarks/bench_vector.py; \
 	else echo 'benchmarks/bench_vector.py is left out: it needs the extra train'; fi
+
+# perturbed states under the address sanitizer (gcc, Linux), in a build of its own
+PERTURBATIONS ?= 100000
+ASAN := build/asan
+asan: build
+	$(call stage,the compiled part with sanitizers,$(BIN)/cmake -S . -B $(ASAN) -G Ninja \
+		-DCMAKE_MAKE_PROGRAM=$(abspath $(BIN)/ninja) -DFLAPRIG_SANITIZE=ON -DSKBUILD_STATE=editable \
+		-DSKBUILD_PROJECT_VERSION=0 -DPython_EXECUTABLE=$(abspath $(BIN)/python) \
+		-Dnanobind_DIR=$$($(BIN)/python -m nanobind --cmake_dir) && $(BIN)/cmake --build $(ASAN))
+	@LD_PRELOAD=$$($${CXX:-c++} -print-file-name=libasan.so) ASAN_OPTIONS=detect_leaks=0 \
+		$(BIN)/python tests/plugin/perturb.py $(PERTURBATIONS) $(ASAN)
 
 clean:
 	rm -rf $(VENV) build dist demo_output .mypy_cache .ruff_cache .pytest_cache .hypothesis .benchmarks

@@ -2,6 +2,7 @@
 
 from importlib import import_module
 from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ __all__ = [
     "TwinRun",
     "Wing",
     "check_feasibility",
+    "load_plugins",
     "read_log",
     "simulate",
     "simulate_batch",
@@ -79,6 +81,24 @@ _ROOM = {
     "simulate": "aero.simulate",
     "simulate_batch": "aero.batch",
 }
+
+
+def load_plugins() -> Path:
+    """Make flaprig.uvlm and flaprig.quasi_steady known to MuJoCo, for models that name them.
+
+    Once in a process is enough, before the first such model is loaded; again does nothing more.
+    flaprig's own `Rig` and `Twin` call it; importing flaprig does not, nor does it import MuJoCo.
+
+    Returns:
+        Path of the plugin library that is loaded.
+
+    Raises:
+        ImportError: another MuJoCo version is installed, the library was not built, does not load,
+            or another copy of it is already in this process.
+    """
+    from flaprig.native import library
+
+    return library.load()
 
 
 def __getattr__(name: str) -> Any:

@@ -108,7 +108,7 @@ class Twin:
         points, control = self.commands(model, stroke, cycles)
         log = drive(model, at_rest(model, points.motion), control, progress)
         rig = self.rig.running(stroke)
-        told = self.rounded(model.opt.timestep)
+        told = (*self.rounded(model.opt.timestep), *clipped(model, control))
         return gather(rig, model, stroke, points, control, log, cycles, told)
 
     def rounded(self, time_step: float) -> tuple[str, ...]:
@@ -179,6 +179,28 @@ class Twin:
         # the log reads torques as this integrator makes them
         model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         return model
+
+
+def clipped(model: mujoco.MjModel, control: Array) -> list[str]:
+    """Sentences on servos whose range of controls in the file cuts what they are told.
+
+    Args:
+        model: of the rig.
+        control: inputs of every step. Shape (n, nu).
+    """
+    found, where = [], controls(model)
+    for i, axis in enumerate(Axis):
+        servo = model.actuator(axis)
+        if not servo.ctrllimited[0]:
+            continue
+        low, high = servo.ctrlrange
+        told = control[:, [where.position[i], where.velocity[i], where.torque[i]]]
+        if told.min() < low or told.max() > high:
+            found.append(
+                f"the {axis} servo was told up to {np.abs(told).max():.4g} (rad, rad/s or N m) and "
+                f"its ctrlrange of {low:.4g} to {high:.4g} cut that"
+            )
+    return found
 
 
 def _check_stroke(stroke: Stroke) -> None:

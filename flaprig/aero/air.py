@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from time import perf_counter
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,10 @@ from flaprig.wing import Wing
 Array = NDArray[np.float64]
 # called with the fraction done, 0 to 1
 Progress = Callable[[float], None]
+# seconds between two words of progress, about
+_SLICE = 0.2
+# words of progress of a run, however quick it is, about
+_LEAST = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +46,10 @@ class WingLoads:
 
 
 class Air:
-    """The air around one wing, with its wake; advances by calls of `run`."""
+    """The air around one wing, with its wake; advances by calls of `run`.
+
+    `copy.copy`, `copy.deepcopy` and `pickle` give an air that continues bit for bit, and alone.
+    """
 
     def __init__(
         self,
@@ -57,26 +65,40 @@ class Air:
         self.native = _native.Air(model.plugin, settings)
         self.state: Array = np.zeros(self.native.state_size)
 
+    def __copy__(self) -> Self:
+        """A copy whose wake goes its own way; it shares the solver, which remembers nothing."""
+        twin = object.__new__(type(self))
+        twin.__dict__.update(self.__dict__, state=self.state.copy())
+        return twin
+
     def run(self, motion: RigidMotion, step: float, progress: Progress | None = None) -> WingLoads:
         """Loads along the motion, whose instants are step seconds apart.
 
-        Works in slices, so that Ctrl-C is heard and progress is told.
+        Ctrl-C stops it within about a tenth of a second, in the middle of a step too; `state` is
+        then as `progress` was last told of it.
+
+        Warns:
+            RuntimeWarning: `state` is none that a run leaves behind: its wake is cleared.
 
         Raises:
-            ValueError: a motion without instants.
+            ValueError: a motion without instants, a step that is not above 0.
         """
         if len(motion) == 0:
             raise ValueError("Air.run: motion must have at least one instant, got 0")
-        slices = 100
-        edges = np.linspace(0, len(motion), min(slices, len(motion)) + 1).astype(int)
         parts = []
-        for start, end in pairwise(edges):
-            m = motion.part(slice(start, end))
+        done, size = 0, 1
+        while done < len(motion):
+            began = perf_counter()
+            m = motion.part(slice(done, done + size))
             parts.append(
                 self.native.run(self.state, step, m.position, m.rotation, m.twist, m.twist_rate)
             )
+            done += len(m)
             if progress is not None:
-                progress(end / len(motion))
+                progress(done / len(motion))
+            # as many steps as go into a slice, by the last one; the wake grows, so not many more
+            fitting = round(size * _SLICE / (perf_counter() - began))
+            size = max(1, min(fitting, 2 * size, len(motion) // _LEAST))
         base, extra, added = (np.concatenate(columns) for columns in zip(*parts, strict=True))
         return WingLoads(base, extra, added)
 

@@ -1,6 +1,14 @@
 #include "air.hpp"
 
+#include <algorithm>
+
 namespace flaprig {
+
+std::string make_sound(const Air& air, double* state, double dt) {
+  std::string fault = air.fault(state, dt);
+  if (!fault.empty()) std::fill_n(state, air.state_size(), 0.0);
+  return fault;
+}
 
 Motion relative_to_wind(const Motion& motion, Vec3 wind_w) {
   Motion relative = motion;

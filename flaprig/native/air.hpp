@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "vec3.hpp"
 
@@ -45,6 +46,10 @@ class Air {
   virtual ~Air() = default;
   // doubles of memory (the wake) that the model needs; may be zero
   virtual int state_size() const = 0;
+  // What no run of this model can have left in the state: a clause that names the number, its value
+  // and what is allowed. Empty for a sound state: only such a one may be given to the functions
+  // below, which take counts and places from it. dt: of the step that begins with it, 0 for none.
+  virtual std::string fault(const double*, double) const { return {}; }
   // loads at this motion; reads the state, changes nothing
   virtual Loads loads(const double* state, const Motion& motion) const = 0;
   // brings the memory up to this instant, where a step dt begins, for models whose loads look at
@@ -64,6 +69,10 @@ class Air {
   Vec3 wind_w_{};
   double reference_radius_ = 0;
 };
+
+// A state from outside: one that is not sound becomes all zeros, the beginning of every model.
+// Returns its fault, empty where nothing was done.
+std::string make_sound(const Air& air, double* state, double dt);
 
 // the motion seen by a fluid that moves with the wind
 Motion relative_to_wind(const Motion& motion, Vec3 wind_w);

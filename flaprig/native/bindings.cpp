@@ -6,6 +6,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,7 @@
 #include "drive.hpp"
 #include "induced.hpp"
 #include "kernel_choice.hpp"
+#include "python_run.hpp"
 #include "quasi_steady.hpp"
 #include "settings.hpp"
 #include "uvlm.hpp"
@@ -50,7 +52,14 @@ void require(bool ok, const char* what) {
 class PyAir {
  public:
   PyAir(const std::string& model, const Attributes& attributes)
-      : air_(make_air(read_specification(model_named(model), attributes))), uvlm_(dynamic_cast<Uvlm*>(air_.get())) {}
+      : model_(model), attributes_(attributes) {
+    const Specification specification = read_specification(model_named(model), attributes);
+    without_lock([&] { air_ = make_air(specification); });
+    uvlm_ = dynamic_cast<Uvlm*>(air_.get());
+  }
+
+  // what copy and pickle make it from again: it has no memory of its own
+  nb::tuple arguments() const { return nb::make_tuple(model_, attributes_); }
 
   int state_size() const { return air_->state_size(); }
   double reference_radius() const { return air_->reference_radius(); }
@@ -64,14 +73,15 @@ class PyAir {
 
   nb::tuple run(State state, double dt, In position, In rotation, In twist, In twist_rate) {
     const MotionArrays motion = arrays(dt, position, rotation, twist, twist_rate);
+    require_step(dt);
     check(state);
     const size_t n = motion.n;
     double *base, *extra, *added;
     Out a = new_array({n, 6}, &base), b = new_array({n, 6}, &extra), c = new_array({n, 6}, &added);
-    {
-      nb::gil_scoped_release release;
-      drive(*air_, state.data(), motion, base, extra, added);
-    }
+    Change change(state.data(), state.size());
+    receive(state.data());
+    without_lock([&] { drive(*air_, state.data(), motion, base, extra, added); });
+    change.keep();
     return nb::make_tuple(a, b, c);
   }
 
@@ -79,25 +89,28 @@ class PyAir {
   nb::tuple run_batch(State states, int count, double dt, In position, In rotation, In twist,
                       In twist_rate, int threads) {
     MotionArrays motions = arrays(dt, position, rotation, twist, twist_rate);
+    require_step(dt);
     const size_t n = motions.n;
     require(count > 0 && n % count == 0, "the instants must be a whole number per motion");
     require(states.size() == size_t(count) * state_size(), "states have the wrong length");
     motions.n /= count;
     double *base, *extra, *added;
     Out a = new_array({n, 6}, &base), b = new_array({n, 6}, &extra), c = new_array({n, 6}, &added);
-    {
-      nb::gil_scoped_release release;
+    Change change(states.data(), states.size());
+    for (int k = 0; k < count; ++k) receive(states.data() + size_t(k) * state_size());
+    without_lock([&] {
       drive_batch(*air_, count, states.data(), motions, base, extra, added, threads);
-    }
+    });
+    change.keep();
     return nb::make_tuple(a, b, c);
   }
 
   // bound circulation (chordwise, spanwise) at one motion
   Out circulation(State state, In position, In rotation, In twist, In twist_rate) {
-    check(state);
     const MotionArrays motion = arrays(0, position, rotation, twist, twist_rate);
     require(motion.n == 1, "circulation takes one motion");
-    const std::vector<double> g = uvlm().circulation(state.data(), motion_at(motion, 0));
+    const std::vector<double> numbers = received(state);
+    const std::vector<double> g = uvlm().circulation(numbers.data(), motion_at(motion, 0));
     const Lattice& l = uvlm().lattice();
     double* data;
     Out out = new_array({size_t(l.chordwise()), size_t(l.spanwise())}, &data);
@@ -107,7 +120,8 @@ class PyAir {
 
   // as the last tick left it
   Out bound_circulation(State state) {
-    Wake w = view(state);
+    std::vector<double> numbers = received(state);
+    Wake w = uvlm().wake(numbers.data());
     double* data;
     Out out = new_array({size_t(w.panels / w.strips), size_t(w.strips)}, &data);
     std::copy_n(w.circulation(), w.panels, data);
@@ -115,7 +129,8 @@ class PyAir {
   }
 
   nb::tuple wake(State state) {
-    Wake w = view(state);
+    std::vector<double> numbers = received(state);
+    Wake w = uvlm().wake(numbers.data());
     const size_t rows = static_cast<size_t>(w.rows()), n = w.strips;
     const size_t vertex_rows = w.started() != 0 ? rows + 1 : 0;
     double *vertices, *strengths;
@@ -153,10 +168,26 @@ class PyAir {
   void check(const State& state) const {
     require(static_cast<int>(state.size()) == state_size(), "state has the wrong length");
   }
-  Wake view(State& state) const {
-    const Uvlm& air = uvlm();
+  static void require_step(double dt) {
+    if (dt > 0 && std::isfinite(dt)) return;
+    throw std::invalid_argument("dt must be a finite number of seconds above 0, got " +
+                                std::to_string(dt));
+  }
+  // a state from Python: one that is none of a run's is emptied, with a warning
+  void receive(double* state) const {
+    const std::string fault = make_sound(*air_, state, 0);
+    if (fault.empty()) return;
+    const std::string text = model_ + ": the state is none that a run leaves behind (" + fault +
+                             "); its wake is cleared";
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw nb::python_error();
+  }
+  // a copy, for those that only read
+  std::vector<double> received(const State& state) const {
+    require(uvlm_, "only flaprig.uvlm has a wake");
     check(state);
-    return air.wake(state.data());
+    std::vector<double> numbers(state.data(), state.data() + state.size());
+    receive(numbers.data());
+    return numbers;
   }
   static MotionArrays arrays(double dt, In p, In r, In t, In a) {
     const size_t n = p.size() / 3;
@@ -164,8 +195,10 @@ class PyAir {
             "position (n, 3), rotation (n, 3, 3), twist (n, 6), twist_rate (n, 6) must agree in n");
     return {static_cast<int>(n), dt, p.data(), r.data(), t.data(), a.data()};
   }
+  std::string model_;
+  Attributes attributes_;
   std::unique_ptr<Air> air_;
-  Uvlm* uvlm_;
+  Uvlm* uvlm_ = nullptr;
 };
 
 // velocity at points (n, 3) of a sheet: vertices (k + 1, s + 1, 3), circulation (k, s)
@@ -192,7 +225,7 @@ Out sheet_velocity(In vertices, In circulation, double core, In points, bool sin
       const double* p = points.data() + 3 * i;
       at.x[i] = T(p[0]), at.y[i] = T(p[1]), at.z[i] = T(p[2]);
     }
-    induced_velocity(sheet, T(core), at, velocity, threads);
+    without_lock([&] { induced_velocity(sheet, T(core), at, velocity, threads); });
     for (size_t i = 0; i < n; ++i) {
       data[3 * i] = velocity.x[i], data[3 * i + 1] = velocity.y[i], data[3 * i + 2] = velocity.z[i];
     }
@@ -212,6 +245,10 @@ NB_MODULE(_native, m) {
   nb::class_<PyAir>(m, "Air")
       .def(nb::init<const std::string&, const Attributes&>(), nb::arg("model"),
            nb::arg("attributes"))
+      .def("__reduce__",
+           [](nb::handle self) {
+             return nb::make_tuple(self.type(), nb::cast<const PyAir&>(self).arguments());
+           })
       .def_prop_ro("state_size", &PyAir::state_size)
       .def_prop_ro("reference_radius", &PyAir::reference_radius)
       .def_prop_ro("added_mass", &PyAir::added_mass, nb::rv_policy::move)

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stop.hpp"
+
 namespace flaprig {
 
 Lu::Lu(std::vector<double> matrix, int n) {
@@ -13,6 +15,7 @@ Lu::Lu(std::vector<double> matrix, int n) {
 bool Lu::factor(const std::vector<double>& matrix, int n) {
   n_ = n, a_ = matrix, pivot_.resize(n);
   for (int k = 0; k < n; ++k) {
+    check_stop();
     int best = k;
     for (int i = k + 1; i < n; ++i) {
       if (std::abs(a_[i * n + k]) > std::abs(a_[best * n + k])) best = i;
@@ -44,6 +47,7 @@ void Lu::solve(double* b) const {
 std::vector<double> Lu::inverse() const {
   std::vector<double> result(n_ * n_), column(n_);
   for (int j = 0; j < n_; ++j) {
+    check_stop();
     for (int i = 0; i < n_; ++i) column[i] = i == j ? 1 : 0;
     solve(column.data());
     for (int i = 0; i < n_; ++i) result[i * n_ + j] = column[i];

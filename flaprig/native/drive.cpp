@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pool.hpp"
+#include "stop.hpp"
 
 namespace flaprig {
 namespace {
@@ -28,6 +29,7 @@ Motion motion_at(const MotionArrays& a, int i) {
 void drive(const Air& air, double* state, const MotionArrays& motion, double* base, double* extra,
            double* added) {
   for (int i = 0; i < motion.n; ++i) {
+    check_stop();
     const Motion now = motion_at(motion, i);
     air.prepare(state, now, motion.dt);
     const Loads loads = air.loads(state, now);

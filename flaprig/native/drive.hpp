@@ -18,7 +18,8 @@ struct MotionArrays {
 Motion motion_at(const MotionArrays& motion, int i);
 
 // for each instant: the loads, then the step that begins there. Output n x 6 each (force, torque
-// in wing axes); added: the added mass's share.
+// in wing axes); added: the added mass's share. The state must be sound (air.hpp). Throws Stopped in
+// the middle of a step, where the state is worth nothing.
 void drive(const Air& air, double* state, const MotionArrays& motion, double* base, double* extra,
            double* added);
 

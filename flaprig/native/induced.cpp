@@ -5,6 +5,7 @@
 
 #include "kernel_choice.hpp"
 #include "pool.hpp"
+#include "stop.hpp"
 
 namespace flaprig {
 namespace {
@@ -72,6 +73,7 @@ void all_blocks(const Sheet<T>& sheet, T core, const Points<T>& points, Points<T
                           sheet.y.data(),  sheet.z.data(),   edges.data()};
   const int count = (points.size() + kernel.lanes - 1) / kernel.lanes;
   in_parallel(threads, count, [&](int block) {
+    check_stop();
     one_block(kernel, sweep, points, block * kernel.lanes, velocity);
   });
 }

@@ -2,6 +2,7 @@
 
 #include "dense.hpp"
 #include "segment.hpp"
+#include "stop.hpp"
 
 namespace flaprig {
 
@@ -56,6 +57,7 @@ void Lattice::invert() {
   const int m = size();
   std::vector<double> influence(static_cast<size_t>(m) * m);
   for (int k = 0; k < m; ++k) {
+    check_stop();
     for (int l = 0; l < m; ++l) {
       const int i = l / spanwise_, j = l % spanwise_;
       influence[k * m + l] = ring_velocity(vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1),

@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "stop.hpp"
 
 namespace flaprig {
 namespace {
@@ -21,7 +25,12 @@ class Pool {
       for (int i = 0; i < count; ++i) work(i);
       return;
     }
-    share(std::min(threads, count) - 1, count, work);
+    try {
+      share(std::min(threads, count) - 1, count, work);
+    } catch (...) {
+      busy_ = false;
+      throw;
+    }
     busy_ = false;
   }
 
@@ -31,13 +40,25 @@ class Pool {
     {
       std::lock_guard<std::mutex> lock(mutex_);
       next_ = 0, count_ = count, work_ = &work;
+      error_ = nullptr, stop_ = Stop::current();
       wanted_ = running_ = std::min<int>(helpers, workers_.size());
       ++call_;
     }
     start_.notify_all();
     take();
+    wait_for_helpers();
+    if (error_) std::rethrow_exception(error_);
+  }
+
+  // the helpers have what is on our stack, and cannot ask for themselves whether to stop
+  void wait_for_helpers() {
     std::unique_lock<std::mutex> lock(mutex_);
-    done_.wait(lock, [this] { return running_ == 0; });
+    while (!done_.wait_for(lock, std::chrono::milliseconds(50), [this] { return running_ == 0; })) {
+      if (!stop_) continue;
+      lock.unlock();
+      stop_->look();
+      lock.lock();
+    }
   }
 
   // no thread to be had: those there are do the work
@@ -67,8 +88,16 @@ class Pool {
     }
   }
 
+  // the first that fails ends it for all
   void take() {
-    for (int i = next_++; i < count_; i = next_++) (*work_)(i);
+    const Stop::Lent lent(stop_);
+    try {
+      for (int i = next_++; i < count_; i = next_++) (*work_)(i);
+    } catch (...) {
+      next_ = count_;
+      std::lock_guard<std::mutex> lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+    }
   }
 
   std::atomic<bool> busy_{false};
@@ -79,6 +108,8 @@ class Pool {
   int count_ = 0, wanted_ = 0, running_ = 0;
   long call_ = 0;
   const std::function<void(int)>* work_ = nullptr;
+  std::exception_ptr error_;
+  Stop* stop_ = nullptr;
 };
 
 // never destroyed: its threads wait until the process ends. A forked child has none of them, and

@@ -8,9 +8,6 @@ namespace {
 
 // rows behind the trailing edge that are near when the velocity by all else is found
 constexpr int kNear = 4;
-// ticks between two of those at most: the wake beyond is tangled, and what is extrapolated over more
-// of them flings it apart
-constexpr int kLongest = 4;
 
 }  // namespace
 
@@ -65,7 +62,7 @@ Sheet<T> RollUp<T>::part(int first, int last) const {
 template <class T>
 int RollUp<T>::every(int row) const {
   int every = 2;
-  for (double age = 2.0 * wake_.detail; age <= age_[row] && every < kLongest; age *= 2) every *= 2;
+  for (double age = 2.0 * wake_.detail; age <= age_[row] && every < Wake::kLongestPause; age *= 2) every *= 2;
   return every;
 }
 
@@ -142,7 +139,7 @@ void RollUp<T>::run(double elapsed) {
   find_far();
   // what was near when the velocity by all else was found is still near: its rows have come to lie
   // as many places further behind as there have been ticks
-  std::vector<Rows> ago(kLongest);
+  std::vector<Rows> ago(Wake::kLongestPause);
   for (int row = young_; row < rows_; ++row) ago[static_cast<int>(wake_.found(row))].push_back(row);
   const int near = bound_ + std::min(kNear, wake_.detail);
   for (size_t ticks = 0; ticks < ago.size(); ++ticks) {

@@ -32,6 +32,14 @@ int Uvlm::state_size() const {
   return wake(nullptr).state_size();
 }
 
+std::string Uvlm::fault(const double* state, double dt) const {
+  Wake w = wake(const_cast<double*>(state));
+  std::string fault = w.fault();
+  if (!fault.empty() || dt == 0 || w.started() == 0 || !due(w, dt)) return fault;
+  const bool finite = std::all_of(state, state + state_size(), [](double x) { return std::isfinite(x); });
+  return finite ? "" : "a number of the wake is not finite";
+}
+
 Wake Uvlm::wake(double* state) const {
   return {lattice_.size(),       lattice_.spanwise(),           settings_.wake_rows,
           settings_.wake_detail, settings_.circulation_lag > 0, state};

@@ -18,6 +18,8 @@ class Uvlm : public Air {
   Uvlm(const Planform& planform, const UvlmSettings& settings, double density, Vec3 wind_w);
 
   int state_size() const override;
+  // also, where a row is due, a number that is not finite
+  std::string fault(const double* state, double dt) const override;
   Loads loads(const double* state, const Motion& motion) const override;
   void prepare(double* state, const Motion& motion, double dt) const override;
   bool prepares() const override { return settings_.rate != UvlmSettings::Rate::kRamped; }

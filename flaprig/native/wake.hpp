@@ -1,11 +1,14 @@
 // The lattice's memory as a view of plain numbers, so that MuJoCo can own, copy and save it.
 #pragma once
 
+#include <string>
+
 #include "vec3.hpp"
 
 namespace flaprig {
 
-// All that the unsteady lattice remembers. Zeros are a valid, wake-free beginning.
+// All that the unsteady lattice remembers. Zeros are a valid, wake-free beginning. Whoever owns the
+// numbers may write into them: before any of them is used as a count or a place, fault() must be empty.
 // Names with _n belong to the last wake tick, those with _p to the one before.
 struct Wake {
   // sizes
@@ -23,6 +26,13 @@ struct Wake {
   int stride() const { return 3 * (strips + 1); }  // numbers in a vertex row
   // vertex rows that are not young, at most
   int old_rows() const { return detail > 0 ? capacity + 1 - detail : 0; }
+
+  // ticks between two findings of an old row's far velocity at most: the wake beyond is tangled, and
+  // what is extrapolated over more of them flings it apart
+  static constexpr int kLongestPause = 4;
+
+  // the first of the counts and times that no run leaves behind, as a clause; empty where there is none
+  std::string fault() const;
 
   double& started() { return data[0]; }   // 0 before the first tick
   double& age() { return data[1]; }       // time since the last tick [s]
@@ -59,6 +69,9 @@ struct Wake {
   void drop_oldest();
   void merge_old();
   void merge(int row);
+  std::string fault_of_clock() const;
+  std::string fault_of_ticks() const;
+  std::string fault_of_found() const;
   static constexpr int kHeader = 16;
 };
 

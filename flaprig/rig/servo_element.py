@@ -151,6 +151,7 @@ def _write(root: ET.Element, axis: Axis, old: Motor, new: Motor) -> None:
             element.attrib.pop(name, None)
             if inherited:
                 element.set(name, repr(value))
+    _widen(element, new)
     if new.rotor_inertia != old.rotor_inertia:
         element.set("armature", repr(new.rotor_inertia))
     rating = [(m.continuous_torque, m.temperature_limit, m.mass) for m in (old, new)]
@@ -158,6 +159,16 @@ def _write(root: ET.Element, axis: Axis, old: Motor, new: Motor) -> None:
         set_numeric(root, rating_name(axis), rating[1])
     if axis is Axis.PITCH and new.mass != old.mass:
         _weigh(root, new.mass)
+
+
+def _widen(element: ET.Element, motor: Motor) -> None:
+    """A range of the controls that would clip the new servo's own speed or torque grows with it."""
+    given = [float(word) for word in element.get("ctrlrange", "").split()]
+    widest = max(motor.no_load_speed, motor.peak_torque)
+    if len(given) == 2 and max(-given[0], given[1]) > 0.0:
+        wide = [min(given[0], -widest), max(given[1], widest)]
+        if wide != given:
+            element.set("ctrlrange", " ".join(map(repr, wide)))
 
 
 def _mass_on_the_arm(root: ET.Element) -> float | None:

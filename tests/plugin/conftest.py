@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
+import mujoco
 import pytest
 
 from flaprig.native import library
@@ -23,3 +25,13 @@ def _plugins() -> None:
 def _no_log_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """MuJoCo writes its warnings into MUJOCO_LOG.TXT where the process stands."""
     monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def told() -> Iterator[list[str]]:
+    """What MuJoCo warns of while the test runs; dm_control has a handler that comes back."""
+    texts: list[str] = []
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(texts.append)
+    yield texts
+    mujoco.set_mju_user_warning(before)

@@ -150,3 +150,25 @@ def test_wake_is_in_the_picture() -> None:
     dry = rig.render(height=120, width=160, camera_id="iso")
     assert wet.mean() > 20 and wet.std() > 5
     assert (np.abs(wet.astype(int) - dry).max(axis=-1) > 20).sum() > 100
+
+
+@pytest.mark.parametrize(("azimuth", "elevation"), [(140, -20), (90, -5), (180, -12), (270, -30)])
+def test_wake_is_seen_through_the_tank(azimuth: float, elevation: float) -> None:
+    """From outside: nearly as much of it as without glass and water."""
+    rig = physics(False)
+    rig.step(300)
+    try:
+        camera = control.MovableCamera(rig, height=120, width=160)
+    except (RuntimeError, ImportError, AttributeError, mujoco.FatalError) as error:
+        pytest.skip(f"no OpenGL here: {error}")
+    camera.set_pose([0.05, 0, -0.05], 1.1, azimuth, elevation)
+    option, seen, wake = control.wrapper.MjvOption(), [], rig.data.plugin_state.copy()
+    for tank in (1, 0):
+        option.geomgroup[2] = tank
+        pictures = []
+        for wet in (1, 0):
+            rig.data.plugin_state[:] = wet * wake
+            pictures.append(camera.render(scene_option=option).astype(int))
+        seen.append((np.abs(pictures[0] - pictures[1]).max(axis=-1) > 10).sum())
+    through, free = seen
+    assert free > 50 and through > 0.8 * free

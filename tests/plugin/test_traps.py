@@ -43,7 +43,6 @@ REFUSED = {
         ("solver", int(mujoco.mjtSolver.mjSOL_PGS)),
         "solver PGS .* use Newton or CG",
     ),
-    "noslip": ('noslip_iterations="3"', ("noslip_iterations", 3), "noslip_iterations .* at 0"),
     "no passive forces": (
         "",
         (

@@ -61,7 +61,8 @@ double strong(const double* strengths, int count) {
 
 void Instance::draw(const mjModel*, const mjData*, mjvScene* scene, Memory memory) const {
   const auto* air = dynamic_cast<const Uvlm*>(air_.get());
-  if (!air) return;
+  // one that is not sound is cleared in the next step, and that tells
+  if (!air || !air->fault(memory.air(), 0).empty()) return;
   Wake wake = air->wake(memory.air());
   const int rows = static_cast<int>(wake.rows()), n = wake.strips;
   if (wake.started() == 0 || rows == 0) return;

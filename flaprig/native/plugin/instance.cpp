@@ -1,5 +1,6 @@
 #include "instance.hpp"
 
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +19,11 @@ Attributes attributes_of(const mjModel* m, int instance, Model model) {
   return attributes;
 }
 
+std::string title_of(const mjModel* m, int instance, Model model) {
+  const char* name = m->names + m->name_pluginadr[instance];
+  return kModelNames[static_cast<int>(model)] + (*name ? " " + quoted(name) : std::string());
+}
+
 void require_options(const mjModel* m) {
   if (m->opt.integrator == mjINT_RK4) {
     throw std::invalid_argument(
@@ -28,10 +34,6 @@ void require_options(const mjModel* m) {
     throw std::invalid_argument(
         "solver PGS does not know the added mass in M; use Newton or CG");
   }
-  if (m->opt.noslip_iterations > 0) {
-    throw std::invalid_argument(
-        "noslip_iterations run a solver that does not know the added mass in M; leave them at 0");
-  }
   if ((m->opt.disableflags & mjDSBL_SPRING) && (m->opt.disableflags & mjDSBL_DAMPER)) {
     throw std::invalid_argument(
         "disabling both spring and damper removes every passive force, the air's too; leave one "
@@ -41,38 +43,12 @@ void require_options(const mjModel* m) {
 
 namespace {
 
-int body_of(const mjModel* m, int instance) {
-  int body = -1;
-  for (int b = 0; b < m->nbody; ++b) {
-    if (m->body_plugin[b] != instance) continue;
-    if (body >= 0) {
-      throw std::invalid_argument("the instance is attached to two bodies; give each wing its own");
-    }
-    body = b;
-  }
-  if (body < 0) throw std::invalid_argument("the instance is attached to no body");
-  return body;
+// of MuJoCo's own fluid
+std::array<double, 5> scene_options(const mjModel* m) {
+  return {m->opt.density, m->opt.viscosity, m->opt.wind[0], m->opt.wind[1], m->opt.wind[2]};
 }
 
 }  // namespace
-
-Place place_of(const mjModel* m, int instance, const PlateSettings& plate) {
-  Place place{body_of(m, instance), -1};
-  if (plate.site.empty()) {
-    throw std::invalid_argument(
-        "site must be given: the name of a site on the wing's body whose x axis points along the "
-        "chord from leading to trailing edge, y along the span, z along the normal");
-  }
-  // mj_name2id is not to be used here: it needs the hash map, which is made later
-  for (int s = 0; s < m->nsite; ++s) {
-    if (plate.site == m->names + m->name_siteadr[s]) place.site = s;
-  }
-  if (place.site < 0 || m->site_bodyid[place.site] != place.body) {
-    throw std::invalid_argument("site must be the name of a site on the wing's own body, got " +
-                                quoted(plate.site));
-  }
-  return place;
-}
 
 Instance::Instance(const mjModel* m, int instance, Model model) : id_(instance), model_(model) {
   require_options(m);
@@ -82,9 +58,36 @@ Instance::Instance(const mjModel* m, int instance, Model model) : id_(instance),
   centroid_ = {s.planform.centroid_x(), s.planform.centroid_y(), 0};
   const Place place = place_of(m, instance, plate_);
   body_ = place.body, site_ = place.site;
+  options_ = scene_options(m);
   check_dofs(m);
   air_ = make_air(s);
   jacobian_.resize(6 * m->nv), scratch_.resize(6 * m->nv);
+}
+
+void tell(const mjModel* m, int instance, Model model, const std::string& text) {
+  mju_warning("%s", (title_of(m, instance, model) + ": " + text).c_str());
+}
+
+void Instance::tell_doubts(const mjModel* m) {
+  const auto options = scene_options(m);
+  if (options == options_) return;
+  options_ = options;
+  const Specification s = read_specification(model_, attributes_of(m, id_, model_));
+  for (const std::string& doubt : doubts(m, {body_, site_, {}}, s.planform, s.wind_w)) {
+    tell(m, id_, model_, doubt);
+  }
+}
+
+void Instance::receive(const mjModel* m, mjData* d, Memory memory) const {
+  const std::string fault = make_sound(*air_, memory.air(), m->opt.timestep);
+  if (fault.empty()) return;
+  mjWarningStat& count = d->warning[mjWARN_BADQACC];
+  count.lastinfo = id_;
+  if (count.number++ > 0) return;
+  char time[40];
+  std::snprintf(time, sizeof time, "%g", d->time);
+  tell(m, id_, model_, "plugin_state is none that a run leaves behind (" + fault +
+                           "); the wake is cleared at time " + time);
 }
 
 // MuJoCo leaves out the off-diagonal inertia of bodies that it calls simple

@@ -3,7 +3,9 @@
 
 #include <mujoco/mujoco.h>
 
+#include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "../air.hpp"
@@ -17,18 +19,33 @@ Attributes attributes_of(const mjModel* m, int instance, Model model);
 // throws std::invalid_argument when the model's options would make the air's loads wrong
 void require_options(const mjModel* m);
 
+// the plugin's name and the instance's, if it has one
+std::string title_of(const mjModel* m, int instance, Model model);
+// a warning of MuJoCo's with that title
+void tell(const mjModel* m, int instance, Model model, const std::string& text);
+
 struct Place {
   int body, site;
+  std::string doubt;  // a sentence where the site was guessed
 };
 
 // where the instance sits; throws std::invalid_argument with one sentence
 Place place_of(const mjModel* m, int instance, const PlateSettings& plate);
+
+// sentences on what is allowed but looks like a mistake
+std::vector<std::string> doubts(const mjModel* m, const Place& place, const Planform& wing,
+                                Vec3 wind_w);
 
 class Instance {
  public:
   // throws std::invalid_argument with one sentence
   Instance(const mjModel* m, int instance, Model model);
 
+  // A state that no run leaves behind is emptied, and counted in d->warning as MuJoCo counts a bad
+  // qacc; the first such warning is printed. Before compute and advance.
+  void receive(const mjModel* m, mjData* d, Memory memory) const;
+  // the doubts of options that were changed since the model was compiled
+  void tell_doubts(const mjModel* m);
   // adds the air's mass to d->M and the rest of its load to d->qfrc_passive
   void compute(const mjModel* m, mjData* d);
   // the step that `compute` began is over: remember its loads, move the wake
@@ -58,6 +75,7 @@ class Instance {
   double plate_weight_;  // of the fluid it displaces, per unit gravity [kg]
   Vec3 centroid_;
   std::unique_ptr<Air> air_;
+  std::array<double, 5> options_{};  // of MuJoCo's own fluid, when they were last looked at
   std::vector<int> dofs_;  // that move the body, root first
 
   // of the last compute: rebuilt each step, so no part of the state

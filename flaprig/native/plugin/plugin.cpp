@@ -9,6 +9,7 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include "../clock.hpp"
 #include "registry.hpp"
@@ -37,9 +38,7 @@ bool guarded(const mjModel* m, int id, Model model, char* message, Work work) {
     work();
     return true;
   } catch (const std::exception& e) {
-    const char* name = m->names + m->name_pluginadr[id];
-    std::snprintf(message, kMessage, "%s%s%s%s: %s", kModelNames[static_cast<int>(model)],
-                  *name ? " \"" : "", name, *name ? "\"" : "", e.what());
+    std::snprintf(message, kMessage, "%s: %s", title_of(m, id, model).c_str(), e.what());
     return false;
   }
 }
@@ -52,7 +51,8 @@ int nstate(const mjModel* m, int id) {
   const bool good = guarded(m, id, model, message, [&] {
     require_options(m);
     const Specification s = read_specification(model, attributes_of(m, id, model));
-    place_of(m, id, s.plate);
+    const Place place = place_of(m, id, s.plate);
+    for (const std::string& doubt : doubts(m, place, s.planform, s.wind_w)) tell(m, id, model, doubt);
     size = Memory::kSize + state_size(s);
   });
   if (!good) mju_error("%s", message);
@@ -115,6 +115,26 @@ void rebuild_mass(const mjModel* m, mjData* d, int id) {
   mj_makeM(m, d);
 }
 
+// noslip works with J inv(M) J^T, which MuJoCo made before the added mass was in M. It is made once
+// more, by the family's last instance, on top of the arena, and put into the place of the first.
+void rebuild_projection(const mjModel* m, mjData* d, int id) {
+  for (int other = id + 1; other < m->nplugin; ++other) {
+    if (in_family(m, other)) return;
+  }
+  if (!mj_isDual(m) || d->nefc == 0) return;
+  const int constraints = d->nefc;
+  auto fields =
+      std::tie(d->parena, d->efc_Y, d->efc_Y_rownnz, d->efc_Y_rowadr, d->efc_Y_colind, d->efc_AR,
+               d->efc_AR_rownnz, d->efc_AR_rowadr, d->efc_AR_colind);
+  const auto before = std::apply([](auto... values) { return std::make_tuple(values...); }, fields);
+  mj_projectConstraint(m, d);
+  // no room: MuJoCo has dropped all constraints and counted a warning
+  if (d->nefc != constraints) return;
+  mju_copy(std::get<1>(before), d->efc_Y, d->nY);
+  mju_copy(std::get<5>(before), d->efc_AR, d->nA);
+  fields = before;
+}
+
 template <Model model>
 void compute(const mjModel* m, mjData* d, int id, int capability) {
   Stopwatch clock(Phase::kPlugin);
@@ -122,8 +142,10 @@ void compute(const mjModel* m, mjData* d, int id, int capability) {
   if (capability == mjPLUGIN_SENSOR) {
     instance->sense(m, d, memory_of(m, d, id), true);
   } else {
+    instance->receive(m, d, memory_of(m, d, id));
     rebuild_mass(m, d, id);
     instance->compute(m, d);
+    rebuild_projection(m, d, id);
   }
 }
 
@@ -134,6 +156,8 @@ void advance(const mjModel* m, mjData* d, int id) {
   char message[kMessage];
   const bool good = guarded(m, id, model, message, [&] {
     require_options(m);
+    instance->tell_doubts(m);
+    instance->receive(m, d, memory_of(m, d, id));
     instance->advance(m, d, memory_of(m, d, id));
   });
   if (!good) mju_error("%s", message);
@@ -165,7 +189,20 @@ void add() {
   mjp_registerPlugin(&plugin);
 }
 
+// Of MuJoCo's word on a plugin that it does not know, its name is the one thing that a model file can
+// choose: a file that names this one first is told by it what is missing. It does nothing.
+void add_hint() {
+  mjpPlugin plugin;
+  mjp_defaultPlugin(&plugin);
+  plugin.name = "flaprig (first call flaprig.load_plugins())";
+  plugin.capabilityflags = mjPLUGIN_PASSIVE;
+  plugin.nstate = [](const mjModel*, int) { return 0; };
+  plugin.compute = [](const mjModel*, mjData*, int, int) {};
+  mjp_registerPlugin(&plugin);
+}
+
 mjPLUGIN_LIB_INIT(flaprig) {
+  add_hint();
   add<Model::kQuasiSteady>();
   add<Model::kUvlm>();
 }
