@@ -190,16 +190,19 @@ def clipped(model: mujoco.MjModel, control: Array) -> list[str]:
     """
     found, where = [], controls(model)
     for i, axis in enumerate(Axis):
-        servo = model.actuator(axis)
-        if not servo.ctrllimited[0]:
-            continue
-        low, high = servo.ctrlrange
-        told = control[:, [where.position[i], where.velocity[i], where.torque[i]]]
-        if told.min() < low or told.max() > high:
-            found.append(
-                f"the {axis} servo was told up to {np.abs(told).max():.4g} (rad, rad/s or N m) and "
-                f"its ctrlrange of {low:.4g} to {high:.4g} cut that"
-            )
+        inputs = {
+            "angle [rad]": where.position[i],
+            "rate [rad/s]": where.velocity[i],
+            "torque [N m]": where.torque[i],
+        }
+        for words, address in inputs.items():
+            told, (low, high) = control[:, address], model.actuator_ctrlrange[address]
+            if model.actuator_ctrllimited[address] and (told.min() < low or told.max() > high):
+                most = f"{np.abs(told).max():.4g}"
+                found.append(
+                    f"the {axis} servo was told a set point of {words} up to {most}, which its "
+                    f"ctrlrange of {low:.4g} to {high:.4g} cut"
+                )
     return found
 
 
