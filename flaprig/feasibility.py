@@ -9,7 +9,6 @@ model of the fluid.
 
 from __future__ import annotations
 
-import math
 import os
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -19,14 +18,15 @@ import numpy as np
 from flaprig import _checks as check
 from flaprig.aero.air import Progress
 from flaprig.aero.result import Result
-from flaprig.aero.simulate import reference_force, simulate
-from flaprig.as_asked import asked_torques
+from flaprig.aero.simulate import simulate
 from flaprig.files import plain, written_whole
 from flaprig.limits import Limits, Projection, project
 from flaprig.limits.peaks import check_limits
 from flaprig.motion_verdicts import motion_verdicts
+from flaprig.nearest_run import nearest_run
 from flaprig.rig import Axis, Rig
 from flaprig.servo_verdicts import Work, servo_verdicts
+from flaprig.servo_work import asked_work, servo_work
 from flaprig.set_points import own_limits
 from flaprig.strokes.stroke import Stroke, check_stroke
 from flaprig.twin import TIME_STEP, Twin, TwinRun
@@ -190,90 +190,44 @@ def check_feasibility(
     limits = own_limits(rig, rig.spec().compile()) if limits is None else limits
     check_limits(owner, limits)
     projection = project(stroke, limits)
-    run = _run(replace(twin, limits=limits), stroke, projection, cycles, _part(progress, 0.0))
-    case = (rig.wing, stroke, rig.model, rig.fluid, cycles)
-    told = _part(progress, _TWIN_SHARE)
-    prescribed = simulate(*case, progress=told, buoyancy=rig.buoyancy)
-    verdicts = motion_verdicts(stroke, projection, limits, tolerances)
+    run = nearest_run(
+        replace(twin, limits=limits), stroke, projection, cycles, _part(progress, 0.0)
+    )
+    prescribed = _as_prescribed(rig, stroke, cycles, _part(progress, _TWIN_SHARE))
     # a stroke that the twin does not make is judged by what it would need
     made = projection.distance_max <= tolerances.resolution
-    asked = {} if made else _asked_work(rig, stroke, prescribed, run)
-    verdicts += _servo_verdicts(rig, stroke, limits, run, tolerances, asked)
-    verdicts += _cost(run.result, prescribed, tolerances)
-    # joint by joint, the whole rig last
-    verdicts.sort(key=lambda verdict: [*Axis, ""].index(verdict.joint))
-    return FeasibilityReport(
-        rig, stroke, limits, projection, run, prescribed, tuple(verdicts), asked
-    )
+    asked = {} if made else asked_work(rig, stroke, prescribed, run)
+    judged = FeasibilityReport(rig, stroke, limits, projection, run, prescribed, (), asked)
+    return replace(judged, verdicts=_verdicts(judged, tolerances))
 
 
-def _servo_verdicts(
-    rig: Rig,
-    stroke: Stroke,
-    limits: Limits,
-    run: TwinRun,
-    tolerances: Tolerances,
-    asked: dict[str, Work],
-) -> list[Verdict]:
+def _verdicts(runs: FeasibilityReport, tolerances: Tolerances) -> tuple[Verdict, ...]:
+    """Verdicts on the runs of a report, joint by joint, the whole rig last."""
+    found = motion_verdicts(runs.stroke, runs.projection, runs.limits, tolerances)
+    found += _servo_verdicts(runs, tolerances)
+    found += _cost(runs.run.result, runs.prescribed, tolerances)
+    return tuple(sorted(found, key=lambda verdict: [*Axis, ""].index(verdict.joint)))
+
+
+def _as_prescribed(rig: Rig, stroke: Stroke, cycles: int, progress: Progress | None) -> Result:
+    """Loads of the stroke when it is made exactly."""
+    case = (rig.wing, stroke, rig.model, rig.fluid, cycles)
+    return simulate(*case, progress=progress, buoyancy=rig.buoyancy)
+
+
+def _servo_verdicts(runs: FeasibilityReport, tolerances: Tolerances) -> list[Verdict]:
     """Verdicts on both servos: on what they did, or on what they would have to do as asked."""
     verdicts: list[Verdict] = []
     for axis in Axis:
-        motor, allowed = getattr(rig.motors, axis), getattr(limits, axis)
-        work = servo_work(run, stroke, axis)
+        motor, allowed = getattr(runs.rig.motors, axis), getattr(runs.limits, axis)
+        work = runs.work(axis)
         found = servo_verdicts(axis.value, motor, allowed, work, tolerances)
-        if asked:
-            as_asked = servo_verdicts(axis.value, motor, allowed, asked[axis.value], tolerances)
+        if runs.asked_work:
+            work = runs.asked_work[axis.value]
+            as_asked = servo_verdicts(axis.value, motor, allowed, work, tolerances)
             found = beside(as_asked, found)
         verdicts += found
     return verdicts
-
-
-def servo_work(run: TwinRun, stroke: Stroke, axis: Axis) -> Work:
-    """What one servo did in the averaged cycles; the error is against the stroke asked for."""
-    motors, histories, part = run.motors, run.result.histories, run.result.averaged
-    speed = part(getattr(histories, f"{axis}_rate"))
-    asked = getattr(stroke.motion(part(histories.time)), axis)
-    return Work(
-        torque=part(getattr(motors, f"{axis}_motor_torque")),
-        demand=part(getattr(motors, f"{axis}_demand")),
-        # mean of each step; the last one of a cycle leads into the first again
-        speed=0.5 * (speed + np.roll(speed, -1)),
-        error=part(getattr(motors, axis)) - asked,
-    )
-
-
-def _asked_work(rig: Rig, stroke: Stroke, prescribed: Result, run: TwinRun) -> dict[str, Work]:
-    """What both servos would do on the stroke itself; the errors are the twin's own."""
-    torque = asked_torques(rig, stroke, prescribed)
-    motion = stroke.motion(prescribed.averaged(prescribed.time))
-    return {
-        axis.value: Work(
-            torque=torque[:, i],
-            demand=torque[:, i],
-            speed=getattr(motion, f"{axis}_rate"),
-            error=servo_work(run, stroke, axis).error,
-        )
-        for i, axis in enumerate(Axis)
-    }
-
-
-def _run(
-    twin: Twin, stroke: Stroke, projection: Projection, cycles: int, progress: Progress | None
-) -> TwinRun:
-    """The twin on the stroke, or on the nearest one within its limits."""
-    try:
-        run = twin.run(stroke, cycles, progress)
-        started = math.ceil(run.joined_at * stroke.frequency)
-        if started >= run.result.averaged_cycles[0]:
-            # means are over the last three at most
-            run = twin.run(stroke, started + 3, progress)
-        return run
-    except RuntimeError:
-        # no start from rest leads onto a stroke without room: begin at full rate
-        run = replace(twin, limits=None).run(projection.stroke, cycles, progress)
-    force = reference_force(twin.rig.wing, stroke, twin.rig.fluid)
-    result = replace(run.result, reference_force=force, notices=()).doubted(stroke)
-    return replace(run, result=result, projection=projection, asked=stroke)
 
 
 def _cost(reached: Result, exact: Result, tolerances: Tolerances) -> list[Verdict]:

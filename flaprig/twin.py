@@ -24,7 +24,8 @@ from flaprig.servo_link import PERFECT, ServoLink
 from flaprig.set_points import Own, SetPoints, check_stops, own_limits, set_points
 from flaprig.strokes.stroke import Motion, Stroke, check_stroke
 from flaprig.twin_log import drive
-from flaprig.twin_run import TOLD, TwinRun, gather
+from flaprig.twin_record import gather
+from flaprig.twin_run import TOLD, TwinRun
 
 __all__ = ["Own", "ServoLink", "Twin", "TwinRun"]
 

@@ -14,9 +14,9 @@ from flaprig.strokes import load
 SINE = SunTangStroke(0.2, math.pi / 3, math.pi / 4)
 # bounds that each was found within, and its quasi-steady gains in C_L and L/D today
 STROKES = {
-    "case_a": (SINUSOID.times(2.0), 0.4886, 0.2755),
-    "case_b": (SINUSOID.times(2.0), 0.5064, 0.2710),
-    "rig_bounds": (PAPER_KINEMATICS, 0.7366, 0.2768),
+    "case_a": (SINUSOID.times(2.0), 0.4886, 0.2730),
+    "case_b": (SINUSOID.times(2.0), 0.5064, 0.2713),
+    "rig_bounds": (PAPER_KINEMATICS, 0.7366, 0.2730),
 }
 
 

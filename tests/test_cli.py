@@ -105,7 +105,7 @@ def test_ctrl_c_says_what_is_kept(
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(simulate, "write_pictures", interrupted)
+    monkeypatch.setattr(simulate, "write_forces", interrupted)
     assert cli.main([*QUICK, "--out", str(tmp_path)]) == 130
     err = capsys.readouterr().err
     assert "histories.csv, histories.npz, summary.json" in err and err.count("\n") == 1

@@ -22,8 +22,9 @@ FLOORS = (
     (
         *("motors", "motor_histories", "motor_record", "rig", "energy"),
         *("servo_link", "set_points", "feedforward"),
-        *("twin_log", "twin_run", "twin", "as_asked"),
-        *("verdict", "motion_verdicts", "servo_verdicts", "feasibility", "catalogue"),
+        *("twin_log", "twin_run", "twin_record", "twin", "as_asked"),
+        *("verdict", "motion_verdicts", "servo_verdicts", "servo_work"),
+        *("nearest_run", "feasibility", "catalogue"),
         *("scaling", "servo_choice"),
     ),
     ("tasks",),

@@ -26,7 +26,7 @@ from flaprig.feedforward import needed_torques
 from flaprig.rig import Sensor, controls, coordinates, readings
 from flaprig.twin import at_rest
 from flaprig.twin_log import drive
-from flaprig.twin_run import balance
+from flaprig.twin_record import balance
 
 SINUSOID = SunTangStroke(0.2, math.radians(60.0), math.radians(45.0))
 COARSE = UVLM(chordwise=4, spanwise=6, steps_per_cycle=40)

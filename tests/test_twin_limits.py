@@ -16,7 +16,7 @@ from flaprig.motors import RIG_MOTORS, XM430_W350, Motors
 from flaprig.rig import Axis
 from flaprig.set_points import Own, own_limits, set_points
 from flaprig.strokes.stroke import Stroke
-from flaprig.twin_run import settled_cycles
+from flaprig.twin_record import settled_cycles
 
 SINUSOID = SunTangStroke(0.2, math.radians(60.0), math.radians(45.0))
 # its pitch acceleration jumps, so no jerk will do

@@ -72,9 +72,7 @@ class Case:
     def of(cls, asked: AskedStroke, rig: Rig, cycles: int) -> Case:
         """The case of a stroke on a rig, with what both files made doubtful."""
         notices = (*rig.notices, *asked.notices)
-        return cls(
-            rig.wing, asked.stroke, rig.model, rig.fluid, cycles, notices, asked.numbers
-        )
+        return cls(rig.wing, asked.stroke, rig.model, rig.fluid, cycles, notices, asked.numbers)
 
     @property
     def title(self) -> str:

@@ -67,9 +67,7 @@ class StrokeOptions:
     log_zero: Annotated[
         tuple[int, int] | None, arg(metavar="INT INT", help_behavior_hint="(optional)")
     ] = None
-    log_columns: Annotated[
-        str | None, arg(metavar="NAMES", help_behavior_hint="(optional)")
-    ] = None
+    log_columns: Annotated[str | None, arg(metavar="NAMES", help_behavior_hint="(optional)")] = None
     center: bool = False
     flip_pitch: bool = False
 

@@ -87,10 +87,7 @@ def make_stroke(record: Record, frequency: float | None, center: bool) -> Made:
     angles = (record.sweep, record.pitch)
     found = periodic(record.time, angles, 1.0 / period, ends=several, begin=repeated)
     if frequency is None and several and not found.kept.all():
-        # what was left out has pulled at the period, too
-        part = record.part(found.kept)
-        period = periods.refined(part.time, (part.sweep, part.pitch), period)
-        found = periodic(record.time, angles, 1.0 / period, begin=repeated)
+        period, found = _without_strays(record, found, period, repeated)
     record = _kept(record, found)
     _require_like_cycles(record, found, period)
     notices = list(record.notices) + _told_scatter(record, found)
@@ -113,6 +110,16 @@ def make_stroke(record: Record, frequency: float | None, center: bool) -> Made:
         if exact
         else (found.fits[0].residual_rms, found.fits[1].residual_rms),
     )
+
+
+def _without_strays(
+    record: Record, found: Periodic, period: float, begin: slice
+) -> tuple[float, Periodic]:
+    """Period and series again: what was left out has pulled at the period, too."""
+    part = record.part(found.kept)
+    period = periods.refined(part.time, (part.sweep, part.pitch), period)
+    angles = (record.sweep, record.pitch)
+    return period, periodic(record.time, angles, 1.0 / period, begin=begin)
 
 
 def _as_it_is(record: Record, frequency: float | None, center: bool) -> Made:

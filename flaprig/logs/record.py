@@ -250,9 +250,7 @@ def _cleaned(
         notices += [said] if said else []
         notices += angles.doubts(angle, column, joint)
         joints.append(angle)
-    return Record(
-        found.time, joints[0], joints[1], record.lines, record.columns, tuple(notices)
-    )
+    return Record(found.time, joints[0], joints[1], record.lines, record.columns, tuple(notices))
 
 
 def _turn(column: Column, counts: JointCounts) -> float:

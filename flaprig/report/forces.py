@@ -79,7 +79,7 @@ def draw_forces(
         for axes in (lift, drag):
             axes.axhline(0.0, color=style.GREY, linewidth=0.8, zorder=1)
             axes.margins(y=0.06)
-            _legend(axes)
+            _legend(axes, 2)
         _draw_angles(angles, curves[0].result, asked)
         first, last = curves[0].result.averaged_cycles
         if first < last:
@@ -119,6 +119,6 @@ def _draw_angles(axes: Axes, result: Result, asked: Stroke | None) -> None:
     _legend(axes)
 
 
-def _legend(axes: Axes) -> None:
-    """Above the axes, two names a row, so that it hides no line."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, borderaxespad=0.2)
+def _legend(axes: Axes, columns: int = 4) -> None:
+    """Above the axes, so that it hides no line."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, borderaxespad=0.2)

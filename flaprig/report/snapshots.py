@@ -73,9 +73,7 @@ def snapshots(
         if progress is not None:
             progress(done / len(motion))
         points = wing_points(wing, motion.rotation[count])
-        yield Snapshot(
-            count * step, points, **joined(wing, motion.rotation[count], *air.wake())
-        )
+        yield Snapshot(count * step, points, **joined(wing, motion.rotation[count], *air.wake()))
 
 
 def joined(wing: Wing, rotation: Array, wake: Array, circulation: Array) -> dict[str, Array]:

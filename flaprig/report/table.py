@@ -44,7 +44,10 @@ def with_spread(summary: Mapping[str, Any], key: str) -> str:
 def print_run(console: Console, title: str, summary: Mapping[str, Any]) -> None:
     """One run: coefficients with their spread, loads with their unit."""
     table = Table(
-        title=with_grey_brackets(title), title_justify="left", title_style="", box=None,
+        title=with_grey_brackets(title),
+        title_justify="left",
+        title_style="",
+        box=None,
         pad_edge=False,
     )
     table.add_column("quantity")

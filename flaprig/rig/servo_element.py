@@ -28,6 +28,8 @@ from flaprig.rig.numeric import numerics, set_numeric
 ROUNDING = 1e-9
 # share by which copper's coefficient and reference temperature may differ from motors.py's
 _SAME_COPPER = 0.02
+# share by which a file may round the range of its controls
+_RANGE_ROUNDING = 1e-3
 # slots of MuJoCo's parameters of a dcmotor
 _RESISTANCE, _CONSTANT, _COPPER, _REFERENCE, _KP, _KI, _KD, _VOLTAGE = range(8)
 _THERMAL, _CAPACITY, _AMBIENT, _SLEW = 2, 3, 4, 7
@@ -151,7 +153,7 @@ def _write(root: ET.Element, axis: Axis, old: Motor, new: Motor) -> None:
             element.attrib.pop(name, None)
             if inherited:
                 element.set(name, repr(value))
-    _widen(element, new)
+    _widen(element, old, new)
     if new.rotor_inertia != old.rotor_inertia:
         element.set("armature", repr(new.rotor_inertia))
     rating = [(m.continuous_torque, m.temperature_limit, m.mass) for m in (old, new)]
@@ -161,14 +163,18 @@ def _write(root: ET.Element, axis: Axis, old: Motor, new: Motor) -> None:
         _weigh(root, new.mass)
 
 
-def _widen(element: ET.Element, motor: Motor) -> None:
-    """A range of the controls that would clip the new servo's own speed or torque grows with it."""
+def _widen(element: ET.Element, old: Motor, new: Motor) -> None:
+    """A range of the controls that is the servo's own goes with it; another is never too narrow."""
     given = [float(word) for word in element.get("ctrlrange", "").split()]
-    widest = max(motor.no_load_speed, motor.peak_torque)
-    if len(given) == 2 and max(-given[0], given[1]) > 0.0:
-        wide = [min(given[0], -widest), max(given[1], widest)]
-        if wide != given:
-            element.set("ctrlrange", " ".join(map(repr, wide)))
+    if len(given) != 2 or max(-given[0], given[1]) <= 0.0:
+        return
+    before, after = (max(motor.no_load_speed, motor.peak_torque) for motor in (old, new))
+    if all(math.isclose(end, before, rel_tol=_RANGE_ROUNDING) for end in (-given[0], given[1])):
+        wide = [-after, after]
+    else:
+        wide = [min(given[0], -after), max(given[1], after)]
+    if wide != given:
+        element.set("ctrlrange", " ".join(map(repr, wide)))
 
 
 def _mass_on_the_arm(root: ET.Element) -> float | None:

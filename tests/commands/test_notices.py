@@ -28,9 +28,7 @@ def log_file(path: Path, cycles: float = 2.0, middle: float = 0.0) -> str:
     return str(written(path, text(time, sweep + middle, pitch)))
 
 
-def test_the_twin_says_what_was_flown(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_twin_says_what_was_flown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found = summary_of(capsys, "twin", "--frequency", "1", *QUICK)
     assert found["sweep_amplitude_rad"] == pytest.approx(np.pi / 3)
     assert found["flown_sweep_amplitude_rad"] == pytest.approx(np.radians(19.5), abs=0.01)
@@ -48,9 +46,7 @@ def test_a_feasible_stroke_has_nothing_to_say(capsys: pytest.CaptureFixture[str]
         assert summary_of(capsys, command, *QUICK)["notices"] == [], command
 
 
-def test_a_log_is_read_by_every_command(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_log_is_read_by_every_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = log_file(tmp_path / "two.csv")
     for command in ("simulate", "twin", "check"):
         found = summary_of(capsys, command, *QUICK, "--stroke", file)
@@ -95,17 +91,13 @@ def test_counts_and_names_on_the_command_line(
     assert "counts of 8192 a turn with the zero at 1000" in found["notices"][0]
 
 
-def test_export_writes_no_other_stroke(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_export_writes_no_other_stroke(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "set_points"
     assert cli.main(["export", "--frequency", "1.5", "--out", str(out)]) == 1
     said = capsys.readouterr()
     assert not out.exists() and not said.out
     assert "sweep was changed" in said.err and "--allow-nearest" in said.err
-    found = summary_of(
-        capsys, "export", "--frequency", "1.5", "--out", str(out), code=1
-    )
+    found = summary_of(capsys, "export", "--frequency", "1.5", "--out", str(out), code=1)
     assert found["written"] is False and not out.exists()
     words = ["export", "--frequency", "1.5", "--allow-nearest", "--cycles", "1"]
     found = summary_of(capsys, *words, "--out", str(out))

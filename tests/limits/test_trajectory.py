@@ -73,13 +73,15 @@ def test_csv_has_units_in_its_names_and_torques_of_the_caller(trajectory, tmp_pa
     assert header == (
         "time_s,sweep_rad,pitch_rad,sweep_rate_rad_per_s,pitch_rate_rad_per_s,"
         "sweep_acceleration_rad_per_s2,pitch_acceleration_rad_per_s2,"
-        "sweep_torque_Nm,pitch_torque_Nm"
+        "following,sweep_torque_Nm,pitch_torque_Nm"
     )
     table = np.loadtxt(rows, delimiter=",")
     assert len(table) == count
     np.testing.assert_allclose(table[:, 1], trajectory.motion.sweep, rtol=1e-9)
     np.testing.assert_allclose(table[:, 6], trajectory.motion.pitch_acceleration, rtol=1e-9)
-    np.testing.assert_array_equal(table[:, 7:], torque)
+    following = (table[:, 0] >= trajectory.joined_at) & (table[:, 0] <= trajectory.left_at)
+    np.testing.assert_array_equal(table[:, 7], following)
+    np.testing.assert_array_equal(table[:, 8:], torque)
     trajectory.save(tmp_path / "bare.npz")
     bare = np.load(tmp_path / "bare.npz")
     assert "sweep_torque_Nm" not in bare and bare["sweep_rad"].size == count

@@ -69,8 +69,10 @@ def test_stamps_out_of_order_and_begun_anew(tmp_path: Path) -> None:
 def test_stamps_since_1970_under_seconds(scale: float, tmp_path: Path) -> None:
     stamps = np.rint((1.764e9 + clock(2.0)) * scale)
     content = text(stamps, *angles(clock(2.0)), form="%.10g").replace("e+", "e")
-    rows = [",".join([f"{s:.0f}", *line.split(",")[1:]]) for s, line in
-            zip(stamps, content.split("\n")[1:], strict=False)]
+    rows = [
+        ",".join([f"{s:.0f}", *line.split(",")[1:]])
+        for s, line in zip(stamps, content.split("\n")[1:], strict=False)
+    ]
     path = written(tmp_path / "log.csv", "\n".join(["time_s,sweep_deg,pitch_deg", *rows]))
     log = flaprig.read_log(path)
     assert is_the_sinusoid(log, 1e-4)
@@ -124,8 +126,10 @@ def test_off_centre_is_said_and_can_be_shifted(middle: float, tmp_path: Path) ->
 
 def test_radians_under_degrees(tmp_path: Path) -> None:
     log = read(tmp_path, TIME, np.radians(SWEEP), np.radians(PITCH))
-    assert [doubt.endswith(f"(then name the column {joint}_rad)")
-            for doubt, joint in zip(log.doubts, ("sweep", "pitch"), strict=True)] == [True, True]
+    assert [
+        doubt.endswith(f"(then name the column {joint}_rad)")
+        for doubt, joint in zip(log.doubts, ("sweep", "pitch"), strict=True)
+    ] == [True, True]
     assert "radians?" in log.doubts[0]
 
 

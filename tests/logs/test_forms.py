@@ -53,16 +53,17 @@ FORMS = {
     "units in brackets": text(*COLUMNS, header="Time [s],Sweep angle (deg),Pitch {°}"),
     "milliseconds": text(1e3 * TIME, SWEEP, PITCH, header="time_ms,sweep_deg,pitch_deg"),
     "ms in a line of units": text(1e3 * TIME, SWEEP, PITCH, header="t,phi,theta\nms,deg,deg"),
-    "microseconds": text(1e6 * TIME, SWEEP, PITCH, header="timestamp_us;phi/deg;theta/deg")
-    .replace(",", ";"),
+    "microseconds": text(1e6 * TIME, SWEEP, PITCH, header="timestamp_us;phi/deg;theta/deg").replace(
+        ",", ";"
+    ),
     "nanoseconds": text(1e9 * TIME, SWEEP, PITCH, header="stamp_ns,φ_deg,θ_deg"),
     "radians": text(
         TIME, np.radians(SWEEP), np.radians(PITCH), header="time_s,sweep_rad,pitch_rad", form="%.9f"
     ),
     "camel case": text(1e3 * TIME, SWEEP, PITCH, header="timeMs,sweepDeg,pitchDeg"),
-    "other columns": text(
-        *COLUMNS, TIME, header=HEADER + ",status"
-    ).replace("\n", ",OK\n").replace("status,OK", "status,word"),
+    "other columns": text(*COLUMNS, TIME, header=HEADER + ",status")
+    .replace("\n", ",OK\n")
+    .replace("status,OK", "status,word"),
 }
 
 

@@ -1,6 +1,6 @@
 """The script of perturbed_state.py; `make asan` runs it with a build that has sanitizers.
 
-    python tests/plugin/perturb.py 100000 [build/asan]
+python tests/plugin/perturb.py 100000 [build/asan]
 """
 
 from __future__ import annotations

@@ -46,7 +46,7 @@ def with_geom(geom: str, option: str = WATER, plate: str = PLATE) -> str:
 def test_second_fluid_is_said_with_its_cure(air: dict[str, str], option: str) -> None:
     told = doubts(two_hinges(air, option))
     assert len(told) == 1
-    assert 'air": MuJoCo\'s own fluid (<option density=' in told[0]
+    assert "air\": MuJoCo's own fluid (<option density=" in told[0]
     assert 'acts on body "wing" too' in told[0] and CURE in told[0]
 
 

@@ -10,6 +10,9 @@ from PIL import Image
 
 from flaprig.report import style
 from flaprig.report.motors import _scale, draw_motors
+from flaprig.strokes import SunTangStroke
+
+ASKED = SunTangStroke(0.2, 1.0, 0.8)
 
 
 def test_picture(tmp_path: Path) -> None:
@@ -18,7 +21,7 @@ def test_picture(tmp_path: Path) -> None:
     wave = np.sin(time)
     arrays = {f"{n}{end}": wave for n in names for end in ("", "_command")}
     arrays |= {f"{n}_{end}": wave for n in names for end in ("motor_torque", "current")}
-    draw_motors(tmp_path / "m.png", SimpleNamespace(time=time, **arrays), 5.0, "title")  # type: ignore[arg-type]
+    draw_motors(tmp_path / "m.png", SimpleNamespace(time=time, **arrays), ASKED, "title")  # type: ignore[arg-type]
     assert np.asarray(Image.open(tmp_path / "m.png").convert("L")).std() > 10
 
 

@@ -117,8 +117,8 @@ def test_the_extended_lattice_is_within_the_demands():
     outcome = MeasuredStrokes(beside=()).run()
     assert not outcome.missed
     rms, alike = outcome.data["rms_percent"], outcome.data["measured_alike"]["rms_percent"]
-    assert rms == pytest.approx({"cl": 8.1, "cd": 14.2, "lift_to_drag": 11.1}, abs=0.3)
-    assert alike == pytest.approx({"cl": 8.7, "cd": 8.5, "lift_to_drag": 8.8}, abs=0.3)
+    assert rms == pytest.approx({"cl": 8.0, "cd": 14.4, "lift_to_drag": 11.1}, abs=0.3)
+    assert alike == pytest.approx({"cl": 8.8, "cd": 8.8, "lift_to_drag": 8.7}, abs=0.3)
     # and clearly nearer to the histories than translation alone can be
     assert outcome.data["histories"]["cl_correlation"] > 0.93
     assert outcome.data["histories"]["cd_correlation"] > 0.79
