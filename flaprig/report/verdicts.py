@@ -118,7 +118,13 @@ def _table(title: str, columns: tuple[str, ...]) -> Table:
     )
     for name in columns:
         numeric = name in ("value", "as asked", "nearest", "bound", "margin", "mass [g]")
-        table.add_column(name, justify="right" if numeric else "left", no_wrap=name != "broken")
+        # where the terminal is narrow, words wrap and numbers stay whole
+        table.add_column(
+            name,
+            justify="right" if numeric else "left",
+            no_wrap=name not in ("quantity", "broken"),
+            min_width=8 if numeric and name != "mass [g]" else None,
+        )
     return table
 
 

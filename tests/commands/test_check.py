@@ -33,6 +33,15 @@ def test_feasible_is_0_and_infeasible_is_1(capsys: pytest.CaptureFixture[str]) -
     assert "Not feasible: sweep velocity" in out and "Nearest stroke within the limits" in out
 
 
+def test_no_number_is_cut_in_a_narrow_terminal(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    assert cli.main([*QUICK, "--frequency", "0.7"]) == 1
+    out = capsys.readouterr().out
+    assert "as asked" in out and "\u2026" not in out
+
+
 def test_json_is_one_object(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main([*QUICK, "--frequency", "0.7", "--pitch-duration", "0.2", "--json"]) == 1
     out, err = capsys.readouterr()
