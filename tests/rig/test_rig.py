@@ -12,27 +12,10 @@ from flaprig import rig as names
 from flaprig.aero.models import UVLM, QuasiSteady
 from flaprig.fluid import AIR, WATER
 from flaprig.motors import RIG_MOTORS
-from flaprig.native import library
 from flaprig.rig import Axis, Body, Rig, Sensor, Site, controls, coordinates, readings, weigh_stops
 from flaprig.wing import RIG_WING, Wing
 
 BETA = Wing.beta(span=0.24, mean_chord=0.06, r1=0.5, r2=0.559)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _plugins() -> None:
-    try:
-        library.load()
-    except ImportError as error:
-        if "is missing" not in str(error):
-            raise
-        pytest.skip(str(error))
-
-
-@pytest.fixture(scope="module")
-def compiled() -> mujoco.MjModel:
-    """The rig as built."""
-    return Rig.load().compile()
 
 
 def attributes(spec: mujoco.MjSpec) -> dict[str, str]:

@@ -11,24 +11,7 @@ import pytest
 
 from flaprig import rig as names
 from flaprig.aero.models import QuasiSteady
-from flaprig.native import library
 from flaprig.rig import Rig, controls, weigh_stops
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _plugins() -> None:
-    try:
-        library.load()
-    except ImportError as error:
-        if "is missing" not in str(error):
-            raise
-        pytest.skip(str(error))
-
-
-@pytest.fixture(scope="module")
-def compiled() -> mujoco.MjModel:
-    """The file with the Python numbers written into it."""
-    return Rig.load().compile()
 
 
 @pytest.mark.parametrize("step", [0.001, 0.002, 0.005])
